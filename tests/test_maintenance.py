@@ -94,7 +94,7 @@ def test_the_changelog_begins_with_this_version_and_its_date() -> None:
     assert all(re.fullmatch(r"\d+\.\d+\.\d+ - \d{4}-\d\d-\d\d", head) for head in released)
     assert heads[: len(heads) - len(released)] in ([], ["Unreleased"])
     number, date = released[0].split(" - ")
-    assert number == __version__ == PROJECT["version"]
+    assert number == __version__
     citation = (ROOT / "CITATION.cff").read_text("utf-8")
     assert f"\nversion: {number}\n" in citation
     assert f"\ndate-released: {date}\n" in citation

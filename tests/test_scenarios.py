@@ -129,14 +129,14 @@ def test_sudden_transitions_swing_around_the_new_position(scenarios: dict[str, S
 def test_the_hysteresis_loop_has_one_width_wherever_it_stands(scenarios: dict[str, Scenario]) -> None:
     width = loop_width(scenarios["paper-hysteresis"])
     assert 0.1e5 < width < 1.0e5
-    readme, paper = (
+    page, paper = (
         (ROOT / name).read_text(encoding="utf-8")
-        for name in ("README.md", "backend/mckibben/physics/PAPER.md")
+        for name in ("docs/reference/scenarios.md", "backend/mckibben/physics/PAPER.md")
     )
-    assert f"| paper-hysteresis | loop width | {width / 1e5:.2f} bar |" in readme
+    assert f"| paper-hysteresis | loop width | {width / 1e5:.2f} bar |" in page
     assert f"| {width / 1e5:.2f} bar wide at half the stroke |" in paper
 
 
-def test_the_table_of_the_readme_names_every_scenario(scenarios: dict[str, Scenario]) -> None:
+def test_the_table_of_the_page_names_every_scenario(scenarios: dict[str, Scenario]) -> None:
     text = table(list(scenarios.values()))
     assert all(f"| {name} |" in text for name in SCENARIOS)

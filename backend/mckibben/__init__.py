@@ -2,8 +2,8 @@
 
 ``import mckibben as mk``: models (`Model`), measurements (`read`, `Measurement`), drives (`Drive`), sizing
 (`size`), studies (`study`), and what there is (`presets`, `effects`). Numbers are SI, texts have a unit,
-pressures are gauge; bad input raises `Problem`. `__all__` is all that is public; the modules below are how it
-works, and change.
+pressures are gauge; bad input raises `Problem`. `__all__` and, for those who write effects,
+`mckibben.effects` are all that is public; the other modules are how it works, and change.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ def _public(name: str) -> object:
 
 
 class _Package(ModuleType):
-    """The package, of which ``presets`` is the function, although a subpackage has the same name."""
+    """The package, whose ``presets`` and ``effects`` are functions, although modules have the same names."""
 
     @property
     def presets(self) -> object:
@@ -65,6 +65,14 @@ class _Package(ModuleType):
     @presets.setter
     def presets(self, subpackage: ModuleType) -> None:
         """The import of the subpackage sets its name here, which is the function's."""
+
+    @property
+    def effects(self) -> object:
+        return _public("effects")
+
+    @effects.setter
+    def effects(self, module: ModuleType) -> None:
+        """As for ``presets``."""
 
     def __dir__(self) -> list[str]:
         return sorted(__all__)

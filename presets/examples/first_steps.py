@@ -8,7 +8,7 @@ import mckibben as mk
 
 model = mk.Model.preset("DMSP-20", length="300 mm")
 curves = model.curves("1 bar, 3 bar, 6 bar")
-print(curves.to_frame().head())
+print(curves.force.max(axis=1))
 print(model.force(pressure="6 bar", contraction=["0 %", "10 %", "20 %"]))
 
 run = mk.Drive.preset("propneu-20-physical").run()

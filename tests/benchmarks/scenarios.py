@@ -2,7 +2,7 @@
 
     python -m tests.benchmarks.scenarios
 
-prints the table of the README.
+prints the table of docs/reference/scenarios.md.
 """
 
 from __future__ import annotations

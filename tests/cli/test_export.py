@@ -1,4 +1,4 @@
-"""``mckibben export``: files for other programs, one line for whatever is wrong, the story of the README."""
+"""``mckibben export``: files for other programs, one line for whatever is wrong, a story of the pages."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from mckibben.simulation.statics.model import StaticModel
 from tests.cli.conftest import Run, write
 from tests.export.test_formats import SAVED
 
-README = (Path(__file__).parents[2] / "README.md").read_text("utf-8")
+PAGE = (Path(__file__).parents[2] / "docs/how-to/take-a-model-along.md").read_text("utf-8")
 
 
 def test_a_preset_a_file_and_a_saved_model_are_written(run: Run) -> None:
@@ -52,7 +52,7 @@ def test_a_preset_a_file_and_a_saved_model_are_written(run: Run) -> None:
         (("DMSP-20", "--as", "c"), ("-o",)),
         (("DMSP-20", "--as", "linear", "-o", "x.mat"), ("need a drive", "muscle alone")),
         (("paper-ramp", "--as", "linear", "-o", "x.mat"), ("paper-ramp", "the load does not move")),
-        (("propneu-20", "--as", "linear", "-o", "x.txt"), ("-o x.txt", "'.txt'", ".mat, .json")),
+        (("propneu-20", "--as", "linear", "-o", "x.txt"), ("-o x.txt", "'.txt'", ".mat or .json")),
     ],
 )
 def test_one_line_says_what_is_wrong(run: Run, arguments: tuple[str, ...], words: tuple[str, ...]) -> None:
@@ -108,8 +108,8 @@ def test_hostile_and_huge_documents_are_refused_in_one_line(run: Run, change: An
 
 
 def test_from_a_measurement_to_a_file_in_three_commands(run: Run) -> None:
-    """The story of the README: a hidden loss of 90 N is found, and is in the exported file."""
-    block = re.search(r"```sh\n(mckibben convert .*?)```", README, re.DOTALL)
+    """The story of the documentation: a hidden loss of 90 N is found, and is in the exported file."""
+    block = re.search(r"```sh\n(mckibben convert .*?)```", PAGE, re.DOTALL)
     assert block is not None
     commands = [shlex.split(line)[1:] for line in block[1].strip().splitlines()]
     assert len(commands) == 3

@@ -35,4 +35,4 @@ def test_a_file_that_cannot_be_written_is_one_line(capsys: pytest.CaptureFixture
     assert cli.run(arguments) == 2
     error = capsys.readouterr().err
     assert error.count("\n") == 1
-    assert "--report no/r.html: cannot be written" in error
+    assert "--report no/r.html: there is no folder no" in error

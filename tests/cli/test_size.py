@@ -117,7 +117,7 @@ def test_nothing_found_is_written_down_too(run: Run) -> None:
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (["--report", "no/r.html"], ["--report no/r.html: cannot be written"]),
+        (["--report", "no/r.html"], ["--report no/r.html: there is no folder no"]),
         (["--report", "r.html", "--proposal", "30"], ["--proposal 30: there ", " proposals", "1 to "]),
         (["--report", "r.html", "--proposal", "0"], ["--proposal"]),
         (["--proposal", "2"], ["--proposal belongs to a report", "--report FILE"]),

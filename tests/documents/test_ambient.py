@@ -50,7 +50,9 @@ def test_an_absolute_pressure_below_the_ambient_one_is_refused_at_its_field() ->
     assert caught.value.errors()[0]["loc"] == ("supply", "pressure")
 
 
-@pytest.mark.parametrize("broken", [{"gas": "none"}, {"gas": {"ambient_pressure": "5 mm"}}, {"supply": 3}])
+@pytest.mark.parametrize(
+    "broken", [{"gas": "none"}, {"gas": {"ambient_pressure": "5 mm"}}, {"supply": "3 mm"}]
+)
 def test_a_broken_document_is_refused_where_it_is_broken(broken: dict[str, Any]) -> None:
     with pytest.raises(ValidationError) as caught:
         DriveDocument.model_validate({**DRIVE, **broken})

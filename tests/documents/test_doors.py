@@ -18,7 +18,7 @@ PACKAGE = Path(mckibben.__file__).parent
 #: Options of commands alone: no other door gives the messages that name them, or they start the server.
 COMMANDS_ALONE = frozenset({
     "out", "resume", "scheduler", "effects", "data", "quota", "host", "json", "save", "report", "proposal",
-    "as", "help", "presets", "stiffness",
+    "as", "help", "model", "presets", "stiffness",
 })  # fmt: skip
 NAMED = re.compile(r"(?<![\w-])--([a-z]+(?:-[a-z]+)*)")
 SAID = {

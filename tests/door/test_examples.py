@@ -1,4 +1,4 @@
-"""The stories in presets/examples run, and the README shows the beginning of the first."""
+"""The stories in presets/examples run, and README and documentation show them."""
 
 from __future__ import annotations
 
@@ -51,12 +51,11 @@ def test_the_readme_shows_the_first_ten_lines() -> None:
     story = (presets_folder() / "examples" / "first_steps.py").read_text("utf-8")
     lines = [line for line in story.splitlines() if line and not line.startswith("#")]
     readme = (ROOT / "README.md").read_text("utf-8")
-    section = readme[readme.index("## From Python") :]
-    (block, *_) = re.findall(r"```python\n(.*?)```", section, flags=re.DOTALL)
+    (block,) = re.findall(r"```python\n(.*?)```", readme, flags=re.DOTALL)
     shown = [line for line in block.splitlines() if line]
     assert shown == lines[:10]
 
 
-def test_the_effect_of_the_readme_is_the_one_of_the_story() -> None:
+def test_the_effect_of_the_documentation_is_the_one_of_the_story() -> None:
     own = presets_folder() / "examples" / "own" / "effects" / "seal_drag.py"
-    assert own.read_text("utf-8") in (ROOT / "README.md").read_text("utf-8")
+    assert own.read_text("utf-8") in (ROOT / "docs" / "how-to" / "own-parts.md").read_text("utf-8")

@@ -63,3 +63,17 @@ def test_a_run_and_a_measurement_over_time() -> None:
     shown = mk.read("trace.csv").plot()
     assert {trace.name for trace in shown.data} >= {"pressure", "length", "force"}
     assert mk.read("martens-dmsp-10-250").plot().layout.yaxis.title.text == "Force (N)"
+
+
+def test_a_notebook_keeps_figures_as_html_and_the_script_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What an executed notebook holds; a browser has drawn it (docs: the stories)."""
+    from mckibben.door.shown import ShownFigure
+
+    monkeypatch.setattr(ShownFigure, "_has_script", False)
+    model = mk.Model.preset("DMSP-20", length="300 mm")
+    first, second = (model.plot("3 bar")._repr_mimebundle_() for _ in range(2))
+    for bundle in (first, second):
+        assert bundle["application/vnd.plotly.v1+json"]["data"]
+        assert "plotly-graph-div" in bundle["text/html"]
+    assert len(second["text/html"]) < 50_000 < 1_000_000 < len(first["text/html"])
+    assert len(mk.Drive.preset("paper-step").run().plot().data) >= 3  # several plots, one below the other

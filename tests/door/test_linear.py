@@ -119,5 +119,5 @@ def test_python_control_gets_matrices_and_names(view: LinearView, monkeypatch: p
     assert (given["states"], given["outputs"]) == (list(view.states), list(view.outputs))
     assert len(given["matrices"]) == 4  # type: ignore[arg-type]
     monkeypatch.setitem(sys.modules, "control", None)
-    with pytest.raises(mk.Problem, match="python-control is not installed"):
+    with pytest.raises(mk.Problem, match="needs control, which is not installed"):
         view.to_control()

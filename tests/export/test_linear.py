@@ -88,7 +88,7 @@ def test_the_ending_chooses_the_form(tmp_path: Path):
     assert {each.name for each in tmp_path.iterdir()} == {"lift.mat", "lift.json", "lift.zip"}
     with pytest.raises(InputError, match=r"'\.m'") as refused:
         write_export(ExportQuestion(stated, "linear"), tmp_path / "lift.m", studio())
-    assert refused.value.hint == "end the name with .mat, .json"
+    assert refused.value.hint == "lift.mat or .json or .zip"
 
 
 def test_a_muscle_alone_is_refused_by_name_and_hostile_texts_stay_texts():

@@ -12,13 +12,13 @@ from playwright.sync_api import Page
 from tests.frontend.views import marked, redrawn
 from tests.running_server import RunningServer
 
-README = Path(__file__).parents[2] / "README.md"
+PAGE = Path(__file__).parents[2] / "docs" / "how-to" / "own-parts.md"
 
 
 @pytest.fixture(scope="session")
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
-    """A server with the README's example effect in a folder of the user's."""
-    blocks = re.findall(r"```python\n(.*?)```", README.read_text(encoding="utf-8"), flags=re.DOTALL)
+    """A server with the example effect of the documentation in a folder of the user's."""
+    blocks = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), flags=re.DOTALL)
     (example,) = (block for block in blocks if "EFFECT = " in block)
     folder = tmp_path_factory.mktemp("new-effect")
     (folder / "effects").mkdir()

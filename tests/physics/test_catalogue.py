@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from mckibben.physics.catalogue import BUILT_IN_FOLDER, EffectCatalogue, default_catalogue
+from mckibben.physics.catalogue import BUILT_IN_FOLDER, EffectCatalogue, default_catalogue, effect_of_file
 from mckibben.physics.errors import InputError
 from mckibben.physics.model import Model
 from mckibben.physics.muscle import Muscle
@@ -52,7 +52,11 @@ def test_unknown_effect_without_a_near_one_lists_them() -> None:
 
 
 def test_a_new_file_appears_and_works(tmp_path: Path) -> None:
-    write(tmp_path, "rope_drag.py", ("return force * direction", "return 2.0 * force * direction"))
+    write(
+        tmp_path, "rope_drag.py", ("return force * direction", "return 2.0 * force * direction"),
+        ("            -10.0,", "            -20.0,"), ("            10.0,", "            20.0,"),
+        ("-11.1036383", "-22.2072766"),
+    )  # fmt: skip
     (tmp_path / "_draft.py").write_text("raise RuntimeError", encoding="utf-8")
     (tmp_path / "notes.txt").write_text("not an effect", encoding="utf-8")
     catalogue = EffectCatalogue([tmp_path])
@@ -184,11 +188,25 @@ def test_what_is_no_plain_file_is_refused(tmp_path: Path) -> None:
 @pytest.mark.parametrize("code", ["raise SystemExit('x')", "raise ValueError('x')", "return nothing"])
 def test_a_function_that_fails_names_effect_and_slot(tmp_path: Path, code: str) -> None:
     write(tmp_path, "broken.py", ("return force * direction", code))
-    effect = EffectCatalogue([tmp_path])["broken"]
+    effect = effect_of_file(tmp_path / "broken.py")
     with pytest.raises(InputError, match="effect 'broken', slot 'friction': ") as caught:
         effect.call("friction", {"direction": 1.0, "velocity": 0.0}, effect.defaults)
     assert caught.value.field == "effects.broken"
     assert "broken.py" in str(caught.value.hint)
+
+
+def test_an_example_that_is_not_so_is_refused(tmp_path: Path) -> None:
+    write(tmp_path, "liar.py", ("            -10.0,", "            999.0,"))
+    catalogue = EffectCatalogue([tmp_path])
+    assert "liar" not in catalogue
+    (problem,) = catalogue.problems
+    assert problem.message == "ValueError: example 1: force_change is -10, not 999"
+
+
+def test_an_effect_of_another_interface_is_refused(tmp_path: Path) -> None:
+    write(tmp_path, "later.py", ('family="friction",', 'family="friction",\n    interface=2,'))
+    (problem,) = EffectCatalogue([tmp_path]).problems
+    assert "written for version 2 of mckibben.effects, and this is 1" in problem.message
 
 
 def test_a_parameter_that_nothing_takes_is_refused(tmp_path: Path) -> None:

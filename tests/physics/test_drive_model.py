@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 import symengine as se
 
+from mckibben.application.effect.states import MUSCLE
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.drive import DriveModel
 from mckibben.physics.drive_terms import COUNTER, OUTPUTS, DriveStructure
 from mckibben.physics.effect import Effect
 from mckibben.physics.record_model import RecordModel
 from mckibben.simulation.integrate.machine_code import machine_code
-from tests.physics.contract_states import MUSCLE
 
 CATALOGUE = default_catalogue()
 EFFECTS = list(CATALOGUE.values())

@@ -7,13 +7,13 @@ from functools import cache
 import numpy as np
 import pytest
 
+from mckibben.application.effect.states import MUSCLE, WARM, companions
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.effect import Effect
 from mckibben.simulation.command.signals import signal_from
 from mckibben.simulation.drive.parts import Drive, Load, Tube, Valve
 from mckibben.simulation.drive.transient import simulate
 from mckibben.simulation.statics.model import StaticModel
-from tests.physics.contract_states import MUSCLE, WARM, companions
 
 CATALOGUE = default_catalogue()
 # Between a pressure sensor and the muscle it shows where the pressure was measured, not where a valve fills.

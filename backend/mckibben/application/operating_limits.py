@@ -22,6 +22,7 @@ OVER_MASS, OUTSIDE_TEMPERATURE, OUTSIDE_VALVE, OVER_FREQUENCY = (
 )
 TINY_PRESSURE = "tiny_pressure"
 _LEAST_PRESSURE = 1e3  # Pa; no muscle moves below 0.01 bar, and people write up to some hundred kPa or psi
+_MOST_BAR = 16.0  # no muscle is given more, so that a larger number was meant in kPa
 _HAIR = 1e-6  # share by which a limit is exceeded at least: rounding of unit conversions
 
 
@@ -30,8 +31,8 @@ def pressure_notices(pressures: Mapping[str, float]) -> list[Notice]:
     return [
         Notice(
             TINY_PRESSURE,
-            f"{pressure:g} Pa is {pressure / 1e5:g} bar; a number without a unit is in Pa: "
-            f"write '{pressure:g} bar' if bar are meant",
+            f"{pressure:g} Pa; did you mean {pressure:g} {'bar' if pressure <= _MOST_BAR else 'kPa'}? "
+            "A number without a unit is in Pa",
             field,
         )
         for field, pressure in pressures.items()

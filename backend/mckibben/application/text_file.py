@@ -2,9 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from mckibben.physics.errors import InputError
+
+HTML = (".html", ".htm")
+
+
+def check_ending(path: Path, known: Sequence[str], *, named: str = "") -> str:
+    """The ending of a file to be written, in lower case.
+
+    Args:
+        path: the file.
+        known: the endings of the forms in which it can be written.
+        named: how the user named it, "--out trace.csv"; by default the path.
+
+    Raises:
+        InputError: it has another ending, and nobody would find in the file what its name promises.
+    """
+    ending = path.suffix.lower()
+    if ending not in known:
+        said = f"'{path.suffix}' is not a known ending" if ending else "the name has no ending"
+        raise InputError(f"{named or path}: {said}", hint=f"{path.stem}{' or '.join(known)}")
+    return ending
 
 
 def write_text(path: Path, text: str, *, named: str = "") -> None:

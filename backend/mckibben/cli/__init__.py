@@ -10,10 +10,23 @@ from __future__ import annotations
 import sys
 
 # In the order of the help.
-from mckibben.cli import studio_commands, data_commands, drive_commands, project_commands  # isort: skip
+from mckibben.cli import (  # isort: skip
+    studio_commands, data_commands, drive_commands, listing_commands, effect_commands,
+    project_commands,
+)  # fmt: skip
 from mckibben.cli.app import app, run
 
-__all__ = ["app", "data_commands", "drive_commands", "main", "project_commands", "run", "studio_commands"]
+__all__ = [
+    "app",
+    "data_commands",
+    "drive_commands",
+    "effect_commands",
+    "listing_commands",
+    "main",
+    "project_commands",
+    "run",
+    "studio_commands",
+]
 
 
 def main() -> None:

@@ -22,6 +22,7 @@ from mckibben.cli.options import (
     Validate,
     with_shared_options,
 )
+from mckibben.physics.errors import InputError
 
 if TYPE_CHECKING:
     from mckibben.application.measurement.files import FileOptions
@@ -39,6 +40,18 @@ def compare(
     model: SavedModelFile = "",
     fit: bool = typer.Option(False, "--fit", help="Fit the parameters of the effects."),
     free: Free = None,
+    tie: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--tie", metavar="A=B", help="Fitted constants that always have the value of another; repeatable."
+        ),
+    ] = None,
+    profile: Annotated[
+        str,
+        typer.Option(
+            "--profile", metavar="NAME", help="Show how well the data determine a fitted constant instead."
+        ),
+    ] = "",
     validate: Validate = None,
     use: Use = None,
     keep: Keep = None,
@@ -48,22 +61,46 @@ def compare(
     studio: Studio,
 ) -> None:
     """Compare a model with measurements: the error in numbers, with or without a fit."""
-    from mckibben.application.compare.compare import compare as compare_model
+    from mckibben.application.compare.compare import compared_whole
     from mckibben.cli.model import data_of, model_question
     from mckibben.cli.output import progress, write_json, write_summary
+    from mckibben.identification.fit.profile import profile as constant_profile
     from mckibben.report.summary.comparison import summary_of
+    from mckibben.report.summary.profile import summary_of as profile_summary
 
     chosen = ModelOptions(muscle, ideal, effect or (), drive, use or (), keep or (), model)
     with progress("fitting" if fit else "comparing"):
         measurements = data_of(files, studio, reading, chosen, validate=validate or ())
         question = model_question(
-            studio, measurements, chosen, free=free or [], strict=reading.correction.strict, refit=fit
+            studio,
+            measurements,
+            chosen,
+            free=free or [],
+            strict=reading.correction.strict,
+            refit=fit or bool(profile),
         )
-        result = compare_model(question, fit=fit)
+        whole = compared_whole(question, fit=fit or bool(profile), ties=_ties(tie or []))
+        shown = constant_profile(whole.comparison, profile) if profile else None
     if as_json:
-        write_json(result)
+        write_json(shown or whole.result)
     else:
-        write_summary(summary_of(result))
+        write_summary(profile_summary(shown) if shown else summary_of(whole.result))
+
+
+def _ties(texts: list[str]) -> dict[str, str]:
+    """Constant -> the one that it follows, from "A=B".
+
+    Raises:
+        InputError: another form.
+    """
+    pairs = [text.partition("=") for text in texts]
+    for text, (_, sign, _) in zip(texts, pairs, strict=True):
+        if not sign:
+            raise InputError(
+                f"--tie {text}: is not of the form A=B",
+                hint="--tie valve_delay.closing_time=valve_delay.opening_time",
+            )
+    return {follower.strip(): leader.strip() for follower, _, leader in pairs}
 
 
 @app.command()
@@ -163,9 +200,10 @@ def convert(
     from mckibben.application.measurement.files import read_file
     from mckibben.application.text_file import write_text
     from mckibben.cli.model import at_option
-    from mckibben.cli.output import progress, remark, standard_input
+    from mckibben.cli.output import check_written, progress, remark, standard_input
     from mckibben.measurement.preparation import prepared
 
+    check_written(out, "--out", (".csv",))
     with progress("reading"):
         measurement = read_file(file, reading.correction, standard_input([file]))
         with at_option():

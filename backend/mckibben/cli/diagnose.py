@@ -10,11 +10,12 @@ from mckibben.application.diagnose.diagnose import prepare
 from mckibben.application.diagnose.next_experiment import NO_EXPERIMENT, schedule_csv
 from mckibben.application.measurement.files import FileOptions
 from mckibben.application.model.saved import keep, model_text, saved_model
+from mckibben.application.text_file import HTML
 from mckibben.cli.diagnose_folder import FolderOptions, run_folder
 from mckibben.cli.model import data_of, model_question
 from mckibben.cli.options import ModelOptions
 from mckibben.cli.output import (
-    check_folder,
+    check_written,
     progress,
     remark,
     write_file,
@@ -66,10 +67,9 @@ def run(
         return
     if folder is not None:
         folder.refuse(files)
-    if save is not None:
-        check_folder(save, "--save")
-    if schedule is not None:
-        check_folder(schedule, "--schedule")
+    check_written(report, "--report", HTML)
+    check_written(save, "--save", (".json",))
+    check_written(schedule, "--schedule", (".csv",))
     question = asked(files)
     work = prepare(question, studio)
     with progress("trying effects") as watch:

@@ -18,7 +18,7 @@ from mckibben.cli.options import (
     ExportFormat,
     with_shared_options,
 )
-from mckibben.documents.located import located
+from mckibben.documents.located import at_file, located
 from mckibben.physics.errors import InputError
 
 if TYPE_CHECKING:
@@ -68,25 +68,32 @@ _LINEAR_OPTIONS = ("at", "input", "output", "amplitudes", "design", "sliding_spe
 @with_shared_options
 def simulate(
     drive: DriveFile,
-    out: Annotated[Path | None, typer.Option("--out", metavar="FILE", help="Write the run as CSV.")] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", metavar="FILE", help="Write the run: .csv its rows, .json all of it."),
+    ] = None,
     as_json: AsJson = False,
     *,
     studio: Studio,
 ) -> None:
     """Simulate a drive: timing table, trace, limits."""
+    from mckibben.application.json_text import answer_json
     from mckibben.application.run.simulate import SimulationQuestion, trace_text
     from mckibben.application.run.simulate import simulate as simulate_drive
     from mckibben.application.text_file import write_text
-    from mckibben.cli.output import remark, write_json, write_summary
+    from mckibben.cli.output import check_written, remark, write_json, write_summary
     from mckibben.documents.drive_reading import drive_of, named_document
     from mckibben.report.summary.simulation import notices, summary_of
 
+    check_written(out, "--out", (".csv", ".json"))
     document = named_document(drive, studio)
     with _errors_of(drive):
         annotated = drive_of(document, studio)
         result = simulate_drive(SimulationQuestion(annotated))
     if out is not None:
-        write_text(out, trace_text(result), named=f"--out {out}")
+        whole = out.suffix.lower() == ".json"
+        text = answer_json(result).decode() + "\n" if whole else trace_text(result)
+        write_text(out, text, named=f"--out {out}")
     if not as_json:
         write_summary(summary_of(result, document.named(drive)))
         return
@@ -168,7 +175,9 @@ def _errors_of(source: str, options: Collection[str] = ()) -> Iterator[None]:
 @app.command()
 @with_shared_options
 def size(
-    task: Annotated[str, typer.Argument(metavar="TASK", help="A sizing task (JSON file).")],
+    task: Annotated[
+        str, typer.Argument(metavar="TASK", help="A sizing task (JSON file) or the id of a preset.")
+    ],
     report: Annotated[
         Path | None, typer.Option("--report", metavar="FILE", help="Also write an HTML report of one drive.")
     ] = None,
@@ -187,24 +196,25 @@ def size(
 ) -> None:
     """From a task to ranked drives from the catalogue, with the reasons against the others."""
     from mckibben.application.size.size import prepare_search, sizing_question
-    from mckibben.cli.output import progress, remark, write_file, write_json, write_summary
-    from mckibben.documents.task import read_task_file
+    from mckibben.application.text_file import HTML
+    from mckibben.cli.output import check_written, progress, remark, write_file, write_json, write_summary
+    from mckibben.documents.task import named_task
     from mckibben.presets.reading import BadDocumentError
     from mckibben.report.summary.sizing import notices, summary_of
 
     if report is None and (proposal is not None or title):
         option = "--title" if proposal is None else "--proposal"
         raise InputError(f"{option} belongs to a report, and none is requested", hint="--report FILE")
+    check_written(report, "--report", HTML)
     try:
-        work = prepare_search(sizing_question(read_task_file(Path(task), studio), studio))
+        work = prepare_search(sizing_question(named_task(task, studio), studio))
         with progress("searching drives") as watch:
             search = work(watch)
     except BadDocumentError as bad:
         finding = bad.findings[0]
         raise InputError(f"{task}: {located(finding.field, finding.message)}", hint=finding.hint) from bad
     except InputError as error:
-        message = located(error.field, error.message).removesuffix(".")
-        raise InputError(f"{task}: {message}", hint=error.hint) from error
+        raise at_file(task, error.field, error.message, error.hint) from error
     if report is not None:
         write_file(report, "--report", "report", _sizing_report(search, studio, proposal or 1, title))
     if as_json:

@@ -132,7 +132,7 @@ def model_of_question(studio: Studio, options: ModelOptions) -> QuestionModel:
         preset = saved_model(options.model).muscle.preset
         muscle = None if preset is None else ExperimentValue(preset, "", "you", f"--model {options.model}")
     length = _said_length(studio, options)
-    return QuestionModel(start, length, muscle, *_drive(options))
+    return QuestionModel(start, length, muscle, *_drive(options, studio))
 
 
 def muscle_length(studio: Studio, options: ModelOptions) -> float | None:
@@ -152,7 +152,7 @@ def _said_length(studio: Studio, options: ModelOptions) -> ExperimentValue | Non
         length = document.get("nominal_length") if stated else None
         where = options.muscle
     elif options.model or options.drive:
-        muscle = stated_model(options)[0].get("muscle")
+        muscle = stated_model(options, studio)[0].get("muscle")
         length = muscle.get("nominal_length") if isinstance(muscle, dict) else None
         where = f"--model {options.model}" if options.model else "--drive"
     else:
@@ -185,7 +185,7 @@ def _json(path: str) -> dict[str, object]:
     return document if isinstance(document, dict) else {}
 
 
-def _drive(options: ModelOptions) -> tuple[DriveDocument | None, str]:
+def _drive(options: ModelOptions, studio: Studio) -> tuple[DriveDocument | None, str]:
     """The drive of a document that has a valve, and the name of the document in origins and errors.
 
     Its muscle and effects are those of the start model. A saved model's own drive gives way to ``--drive``.
@@ -194,7 +194,7 @@ def _drive(options: ModelOptions) -> tuple[DriveDocument | None, str]:
         own = saved_model(options.model).drive if options.model else None
         return own, f"--model {options.model}" if own is not None else "--drive "
     where = f"--drive {options.drive}"
-    document = drive_document(options.drive)
+    document = drive_document(options.drive, studio)
     if "valve" not in document:
         return None, where
     try:

@@ -300,7 +300,7 @@ def start_model(
     """
     if options.ideal and options.effects:
         raise InputError("--ideal and --effect exclude each other", hint="use one of them")
-    document, source = stated_model(options)
+    document, source = stated_model(options, studio)
     stated = cast("Effects | None", document.get("effects"))
     for effect in options.effects:
         if effect not in studio.catalogue and effect not in (stated or {}):
@@ -320,8 +320,7 @@ def start_model(
 
         return with_record(start, saved_model(options.model), studio)
     muscle = options.muscle or named
-    name, separator, length = muscle.partition(":")
-    if not name:
+    if not muscle.partition(":")[0]:
         raise InputError("--muscle is missing", hint="e.g. --muscle DMSP-20:300mm")
     if is_file(muscle, studio):
         return start_of_file(studio, Path(muscle), chosen, rest_length)
@@ -331,10 +330,7 @@ def start_model(
         return start_of_input(
             studio, example.document["muscle"], _chosen(options, of_example), f"--muscle {muscle}"
         )
-    by_preset: dict[str, object] = {"preset": name}
-    if separator:
-        by_preset["nominal_length"] = length
-    return start_of_input(studio, with_length(by_preset, rest_length), chosen, f"--muscle {muscle}")
+    return start_of_input(studio, with_length(muscle, rest_length), chosen, f"--muscle {muscle}")
 
 
 def example_design(muscle: str, studio: Studio) -> DesignPreset | None:
@@ -344,7 +340,7 @@ def example_design(muscle: str, studio: Studio) -> DesignPreset | None:
     return cast("DesignPreset", studio.library.get("designs", muscle))
 
 
-def stated_model(options: ModelOptions) -> tuple[dict[str, object], str]:
+def stated_model(options: ModelOptions, studio: Studio) -> tuple[dict[str, object], str]:
     """Muscle and effects of ``--model`` or ``--drive`` as documents, and the file that states them.
 
     Raises:
@@ -353,7 +349,7 @@ def stated_model(options: ModelOptions) -> tuple[dict[str, object], str]:
     if options.model:
         saved = saved_model(options.model).to_document()
         return {"muscle": saved["muscle"], "effects": saved["effects"]}, options.model
-    return (drive_document(options.drive) if options.drive else {}), options.drive
+    return (drive_document(options.drive, studio) if options.drive else {}), options.drive
 
 
 def _chosen(options: ModelOptions, stated: Effects | None) -> Effects | NamedEffects | None:

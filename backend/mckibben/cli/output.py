@@ -14,7 +14,7 @@ from rich.console import Console
 from rich.table import Table as RichTable
 
 from mckibben.application.json_text import answer_json
-from mckibben.application.text_file import write_text
+from mckibben.application.text_file import check_ending, write_text
 from mckibben.physics.errors import InputError
 from mckibben.report.summary import Summary, Table
 from mckibben.simulation.integrate.background import is_compiling
@@ -48,18 +48,26 @@ def standard_input(names: Sequence[str]) -> dict[str, bytes]:
     return {"-": sys.stdin.buffer.read(LARGEST_FILE + 1)}
 
 
-def check_folder(path: Path, option: str) -> None:
-    """Check that a file can be written there, before long work is done for it.
+def check_written(path: Path | None, option: str, endings: Sequence[str]) -> None:
+    """Check that the file of an option can be written there, before long work is done for it.
+
+    Args:
+        path: of the file; None where the option is not used.
+        option: the option.
+        endings: of the forms in which it can be written.
 
     Raises:
-        InputError: it is a folder, or its folder does not exist.
+        InputError: another ending, it is a folder, or its folder does not exist.
     """
+    if path is None:
+        return
     if path.is_dir():
         raise InputError(
             f"{option} {path}: is a folder", hint=f"name a file in it, e.g. {path / 'model.json'}"
         )
     if not path.parent.is_dir():
         raise InputError(f"{option} {path}: there is no folder {path.parent}", hint="name an existing folder")
+    check_ending(path, endings, named=f"{option} {path}")
 
 
 def write_file(path: Path, option: str, what: str, text: str) -> None:

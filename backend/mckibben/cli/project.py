@@ -8,7 +8,7 @@ from pathlib import Path
 
 from mckibben.application.project.projects import found_project, packed, unpacked
 from mckibben.cli.options import folders
-from mckibben.cli.output import check_folder, remark, write_json, write_summary
+from mckibben.cli.output import check_written, remark, write_json, write_summary
 from mckibben.measurement.store import MeasurementStore
 from mckibben.physics.errors import InputError
 from mckibben.projects.database import Database
@@ -71,7 +71,7 @@ def export_to(store: ProjectStore, name: str, out: Path) -> None:
     Raises:
         InputError: the file cannot be written.
     """
-    check_folder(out, "--out")
+    check_written(out, "--out", (".zip",))
     _, content = packed(store, found_project(store, name).id)
     try:
         out.write_bytes(content)

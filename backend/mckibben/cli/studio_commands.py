@@ -1,4 +1,4 @@
-"""``serve`` and ``curves``."""
+"""``serve``, ``curves`` and ``inverse``."""
 
 from __future__ import annotations
 
@@ -23,6 +23,7 @@ from mckibben.cli.options import (
     SavedModelFile,
     with_shared_options,
 )
+from mckibben.physics.errors import InputError
 
 if TYPE_CHECKING:
     from mckibben.documents.studio import Studio
@@ -132,3 +133,67 @@ def curves(
         write_summary(summary_of(result, muscle or model))
     for misprint in [] if example is None else example.misprints:
         remark(f"misprint of the source: {misprint}")
+
+
+class InverseName(StrEnum):
+    """What is asked for."""
+
+    pressure = "pressure"
+    contraction = "contraction"
+    working_range = "working_range"
+    stroke_pressure = "stroke_pressure"
+
+
+@app.command()
+@with_shared_options
+def inverse(
+    question: Annotated[
+        InverseName,
+        typer.Argument(
+            metavar="QUESTION",
+            help="pressure (of --force at --length or --contraction), contraction (of --force at "
+            "--pressure), working_range (from --preload without pressure to --load at --pressure) or "
+            "stroke_pressure (that lifts --load by --stroke).",
+        ),
+    ],
+    muscle: MuscleText = "",
+    ideal: Ideal = False,
+    effect: EffectIds = None,
+    model: SavedModelFile = "",
+    force: str | None = typer.Option(None, help='Force of the muscle, e.g. "500 N".'),
+    length: str | None = typer.Option(None, help='Its length, e.g. "270 mm".'),
+    contraction: str | None = typer.Option(None, help='Its contraction, e.g. "10 %".'),
+    pressure: str | None = typer.Option(None, help='Gauge pressure, e.g. "6 bar".'),
+    load: str | None = typer.Option(None, help='Load at the end of the stroke, e.g. "200 N".'),
+    preload: str | None = typer.Option(None, help="Load at the start of the stroke."),
+    stroke: str | None = typer.Option(None, help='From the rest length, e.g. "40 mm".'),
+    direction: int | None = typer.Option(
+        None, help="Sign of dL/dt, for friction: -1 shortening, 1 lengthening, 0 none."
+    ),
+    temperature: str | None = typer.Option(None, help='Of the muscle, e.g. "40 degC".'),
+    as_json: AsJson = False,
+    *,
+    studio: Studio,
+) -> None:
+    """Which pressure, contraction or stroke belongs to a force."""
+    from mckibben.application.curves.inverse import answer, question_of_document
+    from mckibben.cli.options import start_model
+    from mckibben.cli.output import write_json, write_summary
+    from mckibben.documents.inverse import read_inverse
+    from mckibben.report.summary.inverse import summary_of
+
+    stated = {
+        "force": force, "length": length, "contraction": contraction, "pressure": pressure, "load": load,
+        "preload": preload, "stroke": stroke, "direction": direction, "temperature": temperature,
+    }  # fmt: skip
+    start = start_model(studio, ModelOptions(muscle, ideal, effect or (), model=model))
+    try:
+        document = read_inverse({"question": question.value, **stated})
+        result = answer(question_of_document(document, start), studio)
+    except InputError as error:
+        option = f"--{error.field}: " if error.field in stated else ""
+        raise InputError(f"{option}{error.message}", hint=error.hint) from error
+    if as_json:
+        write_json(result)
+    else:
+        write_summary(summary_of(result, muscle or model))

@@ -43,8 +43,25 @@ _NAMES = {"effect": "effects"}  # where a field is not called as its option
 _ARGUMENTS = _NAMES | {"column": "columns"}
 #: Whole commands -> what does the same at a door. HTTP has no saved models to write.
 _COMMANDS: dict[Door, dict[str, str]] = {
-    "http": {},
-    "python": {"mckibben diagnose DATA --save MODEL.json": 'model.diagnose(data).model.save("model.json")'},
+    "http": {
+        "use mckibben compare DATA --model": "POST /api/comparisons",
+        "use mckibben curves --muscle": "POST /api/curves",
+        "use mckibben diagnose": "PUT /api/measurements",
+        "use mckibben presets": "GET /api/presets",
+        "use mckibben simulate": "POST /api/simulations",
+        "use mckibben size": "POST /api/sizings",
+        "use mckibben study": "POST /api/studies",
+    },
+    "python": {
+        "mckibben diagnose DATA --save MODEL.json": 'model.diagnose(data).model.save("model.json")',
+        "use mckibben compare DATA --model": "use mk.load",
+        "use mckibben curves --muscle": "use mk.load",
+        "use mckibben diagnose": "use mk.read",
+        "use mckibben presets": "use mk.presets",
+        "use mckibben simulate": "use mk.Drive.load",
+        "use mckibben size": "use mk.size",
+        "use mckibben study": "use mk.study",
+    },
 }
 _VALUE = r""" ("[^"]*"|'[^']*'|[A-Z_]{3,}(?:\.json)?|[a-z]+(?:_[a-z]+)+)"""
 _OPTION = re.compile(rf"--([a-z]+(?:-[a-z]+)*)(?:{_VALUE})?")

@@ -26,7 +26,7 @@ from mckibben.documents.drive_air import (
     TubeInput,
     ValveInput,
 )
-from mckibben.documents.muscle import EffectsInput, MuscleInput
+from mckibben.documents.muscle import EffectsInput, Muscle
 from mckibben.documents.quantity import (
     Contraction,
     Pressure,
@@ -34,6 +34,7 @@ from mckibben.documents.quantity import (
     Temperature,
     Volume,
 )
+from mckibben.documents.shorthand import LOAD_TEXT, SUPPLY_TEXT, TUBE_TEXT, VALVE_TEXT
 from mckibben.documents.signals import (
     AngleOverTime,
     Command,
@@ -58,6 +59,8 @@ def with_gauge_pressures(document: Mapping[str, Any]) -> Mapping[str, Any]:
     What cannot be converted stays as it is, for the error at its field.
     """
     gas = document.get("gas")
+    if "supply" in document:
+        document = {**document, "supply": SUPPLY_TEXT.document(document["supply"])}
     if not isinstance(gas, Mapping) or "ambient_pressure" not in gas:
         return document
     try:
@@ -260,17 +263,18 @@ class DriveDocument(Strict):
         "then it is called a curve fit wherever it is shown. Empty: a drive.",
         examples=["Figure 24 of the paper"],
     )
-    muscle: MuscleInput = Field(description="The muscle; both muscles of an antagonist pair.")
+    kind: Literal["drive"] = Field("drive", description="The word 'drive'.")
+    muscle: Muscle = Field(description="The muscle; both muscles of an antagonist pair.")
     effects: EffectsInput | None = Field(
         None, description="The effects of the model; null: those of the presets."
     )
-    supply: SupplyInput = Field(description="The compressed air before the valve.")
-    valve: ValveInput = Field(description="The valve.")
+    supply: Annotated[SupplyInput, SUPPLY_TEXT] = Field(description="The compressed air before the valve.")
+    valve: Annotated[ValveInput, VALVE_TEXT] = Field(description="The valve.")
     regulator: RegulatorInput | None = Field(
         None,
         description="States that the valve is a pressure regulator; null: it is one only if its preset is.",
     )
-    tube: TubeInput | None = Field(
+    tube: Annotated[TubeInput, TUBE_TEXT] | None = Field(
         None,
         description="Default: the valve is on the muscle, but a diagnosis tries a typical tube (4 mm, "
         "1 m) as an explanation. null: there is no tube, and a diagnosis tries none.",
@@ -289,7 +293,7 @@ class DriveDocument(Strict):
     fittings: list[Id] = Field(
         default_factory=list, max_length=20, description="Fitting presets; they add their port volumes."
     )
-    load: LoadInput = Field(
+    load: Annotated[LoadInput, LOAD_TEXT] = Field(
         default_factory=lambda: LoadInput.model_validate({}), description="The load. Default: none."
     )
     command: Command | None = Field(

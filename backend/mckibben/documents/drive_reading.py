@@ -24,12 +24,13 @@ from mckibben.documents.drive_parts import (
     unverified_of,
     valve_of,
 )
-from mckibben.documents.located import located
+from mckibben.documents.kinds import is_preset, no_such, refuse_other, refuse_table
+from mckibben.documents.located import at_file, located
 from mckibben.documents.problems import validated
 from mckibben.documents.start_model import StartModel, stated_muscle
 from mckibben.documents.studio import Studio
 from mckibben.documents.value_names import value_names
-from mckibben.physics.errors import InputError, did_you_mean
+from mckibben.physics.errors import InputError
 from mckibben.physics.units import si
 from mckibben.presets import DrivePreset, FittingPreset, TubePreset, ValvePreset
 from mckibben.presets.reading import BadDocumentError, parse, read_file
@@ -379,7 +380,8 @@ def preset_document(preset_id: str, studio: Studio) -> DriveDocument:
     try:
         preset = studio.library.get("drives", preset_id)
     except InputError as error:
-        raise error.at(None, code="unknown_preset") from error
+        other = no_such(preset_id, "drive", studio.library)
+        raise (other if other.code == "wrong_kind" else error.at(None, code="unknown_preset")) from error
     assert isinstance(preset, DrivePreset)  # noqa: S101 - of its folder
     return read_document(preset.document, f"the drive preset {preset.id}")
 
@@ -407,13 +409,13 @@ def named_document(name: str, studio: Studio) -> DriveDocument:
     known = [preset.id for preset in studio.library.list("drives")]
     if name in known or not (path.exists() or name.lower().endswith(".json")):
         if name not in known:
-            raise InputError(
-                f"{name}: there is no such file and no such drive preset", hint=did_you_mean(name, known)
-            )
+            raise no_such(name, "drive", studio.library)
         return preset_document(name, studio)
     try:
+        refuse_table(name, "drive")
         content = read_file(path, follow_links=True)
-        if isinstance(content, dict) and "kind" in content:
+        refuse_other(content, "", ("drive",))
+        if is_preset(content):
             preset = parse(DrivePreset, content, studio.effect_table)
             assert isinstance(preset, DrivePreset)  # noqa: S101 - parsed as one
             content = preset.document
@@ -422,5 +424,4 @@ def named_document(name: str, studio: Studio) -> DriveDocument:
         finding = bad.findings[0]
         raise InputError(f"{name}: {located(finding.field, finding.message)}", hint=finding.hint) from bad
     except InputError as error:
-        message = located(error.field, error.message).removesuffix(".")
-        raise InputError(f"{name}: {message}", hint=error.hint) from error
+        raise at_file(name, error.field, error.message, error.hint) from error

@@ -6,7 +6,9 @@ from mckibben.physics.errors import InputError
 
 
 def at_file(source: str, field: str | None, message: str, hint: str | None) -> InputError:
-    """The error with the name of the file in front; "" for none."""
+    """The error with the name of the file in front, unless it stands there; "" for none."""
+    if source and message.startswith(f"{source}:"):
+        return InputError(message, hint=hint)
     text = located(field, message).removesuffix(".")
     return InputError(f"{source}: {text}" if source else text, hint=hint)
 

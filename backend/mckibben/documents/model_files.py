@@ -5,16 +5,20 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from mckibben.documents.kinds import is_preset, no_such, refuse_other, refuse_table
 from mckibben.documents.located import at_file
+from mckibben.documents.shorthand import MUSCLE_TEXT
 from mckibben.physics.errors import InputError, did_you_mean
 
 if TYPE_CHECKING:
     from mckibben.documents.saved_model import SavedModel
+    from mckibben.documents.studio import Studio
 
 
 def _read(path: str) -> dict[str, object]:
     from mckibben.presets.reading import BadDocumentError, read_file
 
+    refuse_table(path, "drive")
     try:
         document = read_file(Path(path), follow_links=True)
     except BadDocumentError as bad:
@@ -24,18 +28,33 @@ def _read(path: str) -> dict[str, object]:
     return document
 
 
-def drive_document(path: str) -> dict[str, object]:
+def drive_document(path: str, studio: Studio) -> dict[str, object]:
     """The parts of a drive document or preset; that of a model alone has only ``effects`` (and ``muscle``).
 
     Of a saved model, and of the model of a diagnosis, they are those of its drive, if it has one.
+
+    Args:
+        path: of the file, or the id of a drive preset.
+        studio: presets.
+
+    Raises:
+        InputError: names the file, the field, what is wrong and what would be right.
     """
     from mckibben.documents.drive import DriveDocument
+    from mckibben.presets import DrivePreset
 
+    if path in [preset.id for preset in studio.library.list("drives")]:
+        preset = studio.library.get("drives", path)
+        assert isinstance(preset, DrivePreset)  # noqa: S101 - of its folder
+        return dict(preset.document)
+    if not path.lower().endswith(".json") and not Path(path).exists():
+        raise no_such(path, "drive", studio.library)
     document = _read(path)
+    refuse_other(document, path, ("drive", "model", "muscle"))
     if document.get("kind") == "model":
         document = saved_model(path).to_document()
         document = {name: document[name] for name in ("muscle", "effects", "drive") if name in document}
-    if document.get("kind") == "drive":  # a preset
+    if is_preset(document):
         document = {"drive": document.get("document")}
     inside = document.pop("drive", None)
     if isinstance(inside, dict):
@@ -46,6 +65,8 @@ def drive_document(path: str) -> dict[str, object]:
     for key in document:
         if key not in known:
             raise InputError(f"{path}: {key} is not a known field", hint=did_you_mean(key, known))
+    if "muscle" in document:
+        document["muscle"] = MUSCLE_TEXT.document(document["muscle"])
     effects = document.get("effects", {})
     if not isinstance(effects, dict):
         raise InputError(f"{path}: effects must be an object", hint='{"<effect id>": {}}')
@@ -64,7 +85,9 @@ def saved_model(path: str) -> SavedModel:
     from mckibben.documents.saved_model import read_saved_model
 
     try:
-        return read_saved_model(_read(path), path)
+        document = _read(path)
+        refuse_other(document, path, ("model",))
+        return read_saved_model(document, path)
     except InputError as error:
         if error.message.startswith(path):
             raise

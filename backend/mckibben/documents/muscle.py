@@ -7,6 +7,7 @@ from typing import Annotated
 from pydantic import Field
 
 from mckibben.documents.quantity import Angle, Diameter, Length, Thickness, Turns
+from mckibben.documents.shorthand import MUSCLE_TEXT
 from mckibben.documents.strict import Id, Name, Strict
 
 
@@ -38,6 +39,9 @@ class MuscleInput(Strict):
         None, description="The lattice of the braid, instead of diameter and angle."
     )
 
+
+#: A muscle, or its preset and length as a text, "DMSP-20:300mm".
+Muscle = Annotated[MuscleInput, MUSCLE_TEXT]
 
 ParameterValue = Annotated[
     float | Annotated[str, Field(min_length=1, max_length=500)],

@@ -7,7 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from mckibben.documents.kinds import refuse_other, refuse_table
 from mckibben.documents.located import at_file
+from mckibben.documents.shorthand import MUSCLE_TEXT
 from mckibben.physics.errors import InputError
 
 if TYPE_CHECKING:
@@ -31,6 +33,7 @@ class NamedEffects:
 
 def with_length(document: object, rest_length: float | None) -> object:
     """A muscle of a document, with this length where it has none."""
+    document = MUSCLE_TEXT.document(document)
     if not isinstance(document, dict) or rest_length is None or "nominal_length" in document:
         return document
     return {**document, "nominal_length": rest_length}
@@ -42,16 +45,17 @@ def muscle_alone(document: object, source: str) -> object:
     Raises:
         InputError: it is a whole drive.
     """
-    if not isinstance(document, dict) or not isinstance(document.get("muscle"), dict):
+    if not isinstance(document, dict) or not isinstance(document.get("muscle"), dict | str):
         return document
     beside = ", ".join(str(key) for key in document if key != "muscle")
     if beside:
+        refuse_other(document, source, ("muscle",))
         raise InputError(
             f"{source}: beside the muscle it holds {beside}",
             field="muscle",
             hint="what belongs here is what stands inside 'muscle'; a whole drive goes to --drive",
         )
-    return document["muscle"]
+    return MUSCLE_TEXT.document(document["muscle"])
 
 
 def is_file(muscle: str, studio: Studio) -> bool:
@@ -92,9 +96,13 @@ def preset_of_file(path: Path, studio: Studio) -> PresetFacts | object:
     from mckibben.presets.reading import BadDocumentError, parse, read_file
 
     try:
+        refuse_table(str(path), "muscle")
         document = read_file(path, follow_links=True)
+        refuse_other(document, str(path), ("muscle",))
         if not isinstance(document, dict) or "kind" not in document:
             return document
+        if "geometry" not in document and "id" not in document:  # a plain muscle that says what it is
+            return {name: value for name, value in document.items() if name not in ("schema", "kind")}
         preset = parse(MusclePreset, document, studio.effect_table)
     except BadDocumentError as bad:
         finding = bad.findings[0]

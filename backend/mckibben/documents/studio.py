@@ -10,7 +10,7 @@ from itertools import groupby
 from pathlib import Path
 
 from mckibben.documents.start_model import PresetFacts, StartModel, StatedMuscle, preset_facts, start_model
-from mckibben.physics.catalogue import EffectCatalogue, default_catalogue
+from mckibben.physics.catalogue import EffectCatalogue, default_catalogue, installed_effects
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError
 from mckibben.physics.sliding import acting_at_rest, sliding_effects
@@ -27,7 +27,8 @@ class Studio:
     Args:
         presets: folder of the built-in presets.
         user_presets: folder for presets of the user; None = presets cannot be saved.
-        effects: folders with further effect files (their Python code is executed).
+        effects: folders with further effect files (their Python code is executed); those of installed
+            packages are there without being named.
 
     Raises:
         InputError: an effects folder does not exist.
@@ -37,7 +38,9 @@ class Studio:
     def __init__(
         self, *, presets: Path, user_presets: Path | None = None, effects: Sequence[Path] = ()
     ) -> None:
-        self.catalogue = EffectCatalogue(effects) if effects else default_catalogue()
+        self._installed = installed_effects()
+        own = effects or self._installed
+        self.catalogue = EffectCatalogue(effects, self._installed) if own else default_catalogue()
         #: Effect id -> parameter name -> parameter; presets are checked against it.
         self.effect_table = {
             name: {p.name: p for p in effect.parameters} for name, effect in self.catalogue.items()
@@ -49,6 +52,9 @@ class Studio:
     def own_mark(self) -> str:
         """Of the contents of all files of the user, wherever they are: what he changes in them changes it."""
         mark = hashlib.sha256()
+        for point in sorted(self._installed, key=lambda point: point.name):
+            version = "" if point.dist is None else point.dist.version
+            mark.update(f"{point.name} {point.value} {version}\n".encode())
         for folder in self._own:
             for path in sorted(folder.rglob("*")):
                 if path.suffix in (".json", ".py") and path.is_file():

@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal
 from pydantic import ConfigDict, Field, JsonValue, model_validator
 
 from mckibben.documents.drive import DriveDocument, DriveOrId, OrPreset
+from mckibben.documents.kinds import is_preset, refuse_other, refuse_table
 from mckibben.documents.located import located
 from mckibben.documents.problems import validated
 from mckibben.documents.saved_model import SavedModel
@@ -284,6 +285,7 @@ class StudyDocument(Strict):
     model_config = ConfigDict(json_schema_extra={"examples": _EXAMPLES})
 
     schema_version: Literal[1] = Field(1, alias="schema", description="Version of the document.")
+    kind: Literal["study"] = Field("study", description="The word 'study'.")
     title: Annotated[str, Field(max_length=200)] = Field("", description="Title for display.")
     subject: Subject = Field(description="What is studied.")
     quantities: Annotated[list[VariedQuantity], Field(min_length=1, max_length=100)] = Field(
@@ -371,7 +373,9 @@ def read_study_file(path: Path) -> StudyDocument:
         InputError: names the file, the field, what is wrong and what would be right.
     """
     try:
+        refuse_table(path.name, "study")
         content = _content(path, "")
+        refuse_other(content, "", ("study",))
         if isinstance(content, dict) and isinstance(subject := content.get("subject"), dict):
             content = {**content, "subject": {name: _named(part, path) for name, part in subject.items()}}
         return read_study(content)
@@ -387,15 +391,12 @@ def in_file(file: str, error: InputError) -> InputError:
     return InputError(f"{file}: {message}", hint=error.hint, code=error.code)
 
 
-def _named(part: Any, study: Path) -> object:
+def _named(part: object, study: Path) -> object:
     """The content of the file that a part of the subject names; other parts unchanged."""
     if not isinstance(part, str) or not part.lower().endswith(".json"):
         return part
     content = _content(study.parent / part, f"{part}: ")
-    presets = ("drives", "drive", "tasks", "task")
-    if isinstance(content, dict) and content.get("kind") in presets and "document" in content:
-        return content["document"]
-    return content
+    return content["document"] if isinstance(content, dict) and is_preset(content) else content
 
 
 def _content(path: Path, named: str) -> object:

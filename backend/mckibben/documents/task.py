@@ -9,11 +9,12 @@ from pydantic import ConfigDict, Field, JsonValue
 
 from mckibben.documents.drive import Inclination, LeverRatio, Mass, PulleyRadius, Stiffness
 from mckibben.documents.json_document import JsonDocument
+from mckibben.documents.kinds import is_preset, no_such, refuse_other, refuse_table
 from mckibben.documents.quantity import Diameter, Force, PositivePressure, QuantityField, Temperature
+from mckibben.documents.shorthand import LOAD_TEXT
 from mckibben.documents.strict import Id, Strict
 from mckibben.documents.studio import Studio
 from mckibben.facts.task import TASK, usual
-from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.presets import TaskPreset
 from mckibben.presets.reading import parse, read_file
 
@@ -189,10 +190,11 @@ class SizingTask(Strict):
     model_config = ConfigDict(json_schema_extra={"examples": _EXAMPLES})
 
     schema_version: Literal[1] = Field(1, alias="schema", description="Version of the document.")
+    kind: Literal["task"] = Field("task", description="The word 'task'.")
     title: Annotated[str, Field(max_length=200)] = Field(
         "", description="Name that its user gives the task, shown beside its figures."
     )
-    load: TaskLoad = Field(description="The load.")
+    load: Annotated[TaskLoad, LOAD_TEXT] = Field(description="The load.")
     stroke: Stroke | None = Field(None, description=TASK["stroke"].definition)
     time: TaskTime | None = Field(None, description=TASK["time"].definition)
     time_down: TaskTime | None = Field(None, description=TASK["time_down"].definition)
@@ -236,20 +238,12 @@ class SizingTask(Strict):
         return JsonDocument(whole)
 
 
-def read_task_file(path: Path, studio: Studio) -> SizingTask:
-    """The task of a file, or the one inside a preset file.
-
-    Raises:
-        BadDocumentError: the file cannot be read, or its preset is not valid.
-        InputError: what is wrong, with ``field`` the path in the document.
-    """
-    return read_task(_content(path, studio))
-
-
 def _content(path: Path, studio: Studio) -> object:
     """The content of a file, or the document inside a preset file."""
+    refuse_table(path.name, "task")
     content = read_file(path, follow_links=True)
-    if not isinstance(content, dict) or "kind" not in content:
+    refuse_other(content, "", ("task",))
+    if not is_preset(content):
         return content
     preset = parse(TaskPreset, content, studio.effect_table)
     assert isinstance(preset, TaskPreset)  # noqa: S101 - parsed as one
@@ -277,8 +271,8 @@ def named_task(name: str, studio: Studio) -> SizingTask:
     known = [preset.id for preset in studio.library.list("tasks")]
     if name in known or not (Path(name).exists() or name.lower().endswith(".json")):
         if name not in known:
-            raise InputError("there is no such file and no such task preset", hint=did_you_mean(name, known))
+            raise no_such(name, "task", studio.library)
         preset = studio.library.get("tasks", name)
         assert isinstance(preset, TaskPreset)  # noqa: S101 - of its folder
         return read_task(preset.document)
-    return read_task_file(Path(name), studio)
+    return read_task(_content(Path(name), studio))

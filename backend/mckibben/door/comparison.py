@@ -10,8 +10,11 @@ from typing import TYPE_CHECKING, Generic
 from mckibben.application.compare.compare import ComparisonResult
 from mckibben.application.compare.series import rows_of
 from mckibben.door.frames import frame_of
+from mckibben.door.problem import reported
+from mckibben.door.profile import Profile
 from mckibben.door.result import ModelT, ResultOf
 from mckibben.identification.fit.comparison import Comparison as ComparedModel
+from mckibben.identification.fit.profile import profile
 from mckibben.report.summary import Summary
 from mckibben.report.summary.comparison import summary_of
 
@@ -26,6 +29,21 @@ class Comparison(ResultOf[ComparisonResult], ComparisonResult, Generic[ModelT]):
     model: ModelT  # type: ignore - its document is in to_dict()
     """The compared model; after a fit with the fitted numbers and the range it was measured in."""
     _compared: ComparedModel
+
+    @reported
+    def profile(self, name: str, *, share: float = 0.95) -> Profile:
+        """Profile likelihood of a fitted constant: an interval that need not be symmetric, or has one end.
+
+        At each value all other constants are fitted again; correlated noise is allowed for.
+
+        Args:
+            name: as "effect.parameter", "dahl.force", or a geometry field that was freed.
+            share: of the interval.
+
+        Raises:
+            Problem: no fit was requested, or the constant was not fitted (with the nearest match).
+        """
+        return Profile.of(profile(self._compared, name, share=share), _name=self._name)
 
     def to_frame(self) -> pd.DataFrame:
         """All compared rows, SI: channel, group, (time,) pressure, length, contraction, velocity, measured,

@@ -4,15 +4,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Generic
 
 from mckibben.application.compare.question import ModelQuestion
 from mckibben.application.diagnose.doubts import DoubtfulEntry
 from mckibben.application.diagnose.result import DiagnosisResult
+from mckibben.application.text_file import HTML
 from mckibben.documents.studio import Studio
+from mckibben.door.comparison import Comparison
 from mckibben.door.frames import frame_of_rows
+from mckibben.door.profile import Profile
 from mckibben.door.result import ModelT, ResultOf
 from mckibben.identification.diagnose.verdict import Status
 from mckibben.report.summary import Summary
@@ -30,6 +33,15 @@ class Diagnosis(ResultOf[DiagnosisResult], DiagnosisResult, Generic[ModelT]):
     """The best model: fitted muscle, effects and constants, of a transient with its drive."""
     _question: ModelQuestion
     _studio: Studio
+    _again: Callable[[], Comparison[ModelT]]
+
+    def profile(self, name: str, *, share: float = 0.95) -> Profile:
+        """Profile likelihood of a constant of the best model; see `Comparison.profile`.
+
+        Raises:
+            Problem: the constant was not fitted, with the nearest match.
+        """
+        return self._again().profile(name, share=share)
 
     @property
     def sentence(self) -> str:
@@ -93,7 +105,7 @@ class Diagnosis(ResultOf[DiagnosisResult], DiagnosisResult, Generic[ModelT]):
 
     def _files(self, path: Path) -> str:
         """Also ``.html``: the report of ``mckibben diagnose --report``."""
-        if path.suffix.lower() in (".html", ".htm"):
+        if path.suffix.lower() in HTML:
             from mckibben.report.diagnosis.gather import ReportOptions, report_of
 
             return report_of(self._question, self._studio, ReportOptions(), self._result)

@@ -19,7 +19,7 @@ from mckibben.application.run.simulate import (
     trace_columns,
     trace_text,
 )
-from mckibben.application.text_file import write_text
+from mckibben.application.text_file import check_ending, write_text
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_reading import (
     AnnotatedDrive,
@@ -28,6 +28,7 @@ from mckibben.documents.drive_reading import (
     preset_document,
     read_document,
 )
+from mckibben.documents.shorthand import TUBE_TEXT, VALVE_TEXT
 from mckibben.documents.studio import Studio
 from mckibben.door.exported import Exportable
 from mckibben.door.frames import frame_of
@@ -36,6 +37,7 @@ from mckibben.door.model import Model, model_of_document
 from mckibben.door.problem import reported
 from mckibben.door.rendering import notebook_cell, plain_text
 from mckibben.door.result import ResultOf
+from mckibben.door.stepper import Engine, Stepper, nonlinear_plant
 from mckibben.door.values import Quantity, number_of
 from mckibben.door.workspace import studio
 from mckibben.export.source import of_drive
@@ -69,7 +71,7 @@ class Drive(Exportable):
             chirp, random, table.
         controller: ``{"kp": 2.0, "ki": 10.0, "reference": {...}}`` instead of a command.
         effects: all effects of the drive, instead of those of muscle and parts.
-        load: ``{"mass": "10 kg", "arrangement": "hanging"}``.
+        load: a mass or a force, "10 kg", or ``{"mass": "10 kg", "arrangement": "hanging"}``.
         tube: id of a preset, or ``{"inside_diameter": "4 mm", "length": "1 m"}``; None = none.
         duration: of a run, "4 s".
         title: for display.
@@ -97,7 +99,7 @@ class Drive(Exportable):
         command: Part | None = None,
         controller: Part | None = None,
         effects: Part | None = None,
-        load: Part | None = None,
+        load: str | Part | None = None,
         tube: str | Part | None = None,
         duration: Quantity | None = None,
         title: str = "",
@@ -157,7 +159,7 @@ class Drive(Exportable):
     @property
     def document(self) -> dict[str, Any]:
         """The drive document, as `save` writes it."""
-        return self._document.to_document()
+        return _document_of_file(self._document)
 
     @property
     def parsed(self) -> DriveDocument:
@@ -255,6 +257,36 @@ class Drive(Exportable):
         )
         return LinearView.of(linear_view(question, Watch()), _name=self._title)
 
+    @reported
+    def stepper(self, dt: Quantity) -> Stepper:
+        """The drive at its start, to be carried on step by step under commands of your own.
+
+        Args:
+            dt: step, "5 ms"; the command is held during it.
+
+        Raises:
+            Problem: a step that is not positive, pulse-width modulation, no equilibrium to start from.
+        """
+        drive = drive_of(self._document, self._studio, measured=True).drive
+        return Stepper(Engine(drive, number_of(dt, "s", "dt")))
+
+    @reported
+    def to_control(self, at: str | None = None, *, dt: Quantity | None = None) -> Any:
+        """The drive as a plant of python-control, with named inputs, states and outputs.
+
+        Args:
+            at: operating point of the linear state space, as for `linearise`; dead times are left out.
+            dt: step; then it is the nonlinear drive in discrete time, a ``control.NonlinearIOSystem`` with
+                the inputs command and load_force and the outputs position, velocity and pressure.
+
+        Raises:
+            Problem: python-control is not installed, no equilibrium there, or dead times with ``dt``.
+        """
+        if dt is None:
+            return self.linearise(at, amplitudes=()).to_control()
+        drive = drive_of(self._document, self._studio, measured=True).drive
+        return nonlinear_plant(Engine(drive, number_of(dt, "s", "dt")))
+
     def _annotated(self) -> AnnotatedDrive:
         return drive_of(self._document, self._studio) if self._measured else self._checked
 
@@ -267,8 +299,9 @@ class Drive(Exportable):
         """Write the drive document as JSON, for `Drive.load` and ``mckibben simulate``.
 
         Raises:
-            Problem: the file cannot be written.
+            Problem: the file cannot be written, or its ending is not .json.
         """
+        check_ending(Path(path), (".json",))
         write_text(Path(path), _document_text(self._document))
 
     def _to_export(self) -> tuple[Stated, Studio]:
@@ -294,14 +327,6 @@ def _document_of(parts: Mapping[str, Any]) -> dict[str, Any]:
     muscle = document.get("muscle")
     if isinstance(muscle, Model):
         document["muscle"] = muscle.document["muscle"]
-    elif isinstance(muscle, str):
-        name, separator, length = muscle.partition(":")
-        document["muscle"] = {"preset": name, **({"nominal_length": length} if separator else {})}
-    for name in ("valve", "tube"):
-        if isinstance(document.get(name), str):
-            document[name] = {"preset": document[name]}
-    if isinstance(document.get("supply"), str | int | float):
-        document["supply"] = {"pressure": document["supply"]}
     if isinstance(muscle, Model) and "effects" not in document and not muscle.has_preset_effects:
         own = muscle.document["effects"]
         document["effects"] = own if muscle.is_saved else {**_effects_of_parts(document), **own}
@@ -312,7 +337,8 @@ def _effects_of_parts(document: Mapping[str, Any]) -> dict[str, dict[str, float]
     """Default effects of the presets of valve, tube and fittings."""
     library = studio().library
     named: list[tuple[str, object]] = [("fittings", name) for name in document.get("fittings") or ()]
-    for kind, part in (("valves", document.get("valve")), ("tubes", document.get("tube"))):
+    for kind, name, text in (("valves", "valve", VALVE_TEXT), ("tubes", "tube", TUBE_TEXT)):
+        part = text.document(document.get(name))
         if isinstance(part, Mapping):
             named.append((kind, cast("Mapping[str, object]", part).get("preset")))
     effects: dict[str, dict[str, float]] = {}
@@ -366,9 +392,14 @@ class Run(ResultOf[SimulationResult], SimulationResult):
         return f"Run of {self._name}: {self.outcome}"
 
 
+def _document_of_file(document: DriveDocument) -> dict[str, Any]:
+    """The drive with what says in a file that it is one."""
+    return {"schema": 1, "kind": "drive", **document.to_document()}
+
+
 def _document_text(document: DriveDocument) -> str:
     """The content of the file of a drive."""
-    return json.dumps(document.to_document(), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+    return json.dumps(_document_of_file(document), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 def _summary_of(document: DriveDocument, name: str) -> Summary:
@@ -378,7 +409,9 @@ def _summary_of(document: DriveDocument, name: str) -> Summary:
         document: the drive.
         name: for the title.
     """
-    parts = {key: part for key, part in document.to_document().items() if key not in ("schema", "title")}
+    parts = {
+        key: part for key, part in document.to_document().items() if key not in ("schema", "kind", "title")
+    }
     rows = [[key.replace("_", " "), _shown(part)] for key, part in parts.items()]
     title = f"{name}: {document.title}" if document.title and document.title != name else name
     return [Table(title, ["part", "stated (SI)"], rows)]

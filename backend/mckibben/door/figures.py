@@ -20,6 +20,7 @@ from mckibben.facts.diagnosis import DIAGNOSIS
 from mckibben.facts.sizing import SIZING
 from mckibben.facts.study import INFLUENCE, WATCHED
 from mckibben.facts.units import Scale
+from mckibben.identification.fit.profile import Profile
 from mckibben.measurement.measurement import Measurement
 from mckibben.report.chart import family
 from mckibben.report.figures import variable
@@ -44,11 +45,12 @@ def blank(title: str, *, rows: int = 1) -> Figure:
         title: of the figure.
         rows: number of plots, one below the other, over the same x axis.
     """
-    from plotly.graph_objects import Figure
     from plotly.subplots import make_subplots
 
-    figure = (
-        Figure() if rows == 1 else make_subplots(rows=rows, cols=1, shared_xaxes=True, vertical_spacing=0.06)
+    from mckibben.door.shown import ShownFigure
+
+    figure = ShownFigure(
+        None if rows == 1 else make_subplots(rows=rows, cols=1, shared_xaxes=True, vertical_spacing=0.06)
     )
     figure.update_layout(
         template="none",
@@ -257,6 +259,18 @@ def curves_figure(result: CurvesResult, title: str) -> Figure:
             colour=shades[int(order[index])],
         )  # fmt: skip
     name_axes(figure, axis_title("contraction"), [axis_title("force")])
+    return figure
+
+
+def profile_figure(result: Profile) -> Figure:
+    """The deviance over a constant, and the limit of the interval."""
+    unit = "" if result.unit == "1" else f" [{result.unit}]"
+    figure = blank(f"Profile of {result.name}")
+    add_line(figure, result.value, result.deviance, "deviance")
+    ends = [float(result.value[0]), float(result.value[-1])]
+    limit = f"{100.0 * result.share:g} % interval"
+    add_line(figure, ends, [result.limit, result.limit], limit, colour=SOFT, dash="dash")
+    name_axes(figure, f"{result.name}{unit}", ["deviance"])
     return figure
 
 

@@ -7,22 +7,23 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mckibben.door.problem import reported
+from mckibben.extras import of_extra
+
 if TYPE_CHECKING:
     import pandas as pd
 
 
+@reported
 def frame_of(columns: Mapping[str, Any]) -> pd.DataFrame:
     """A frame with these columns; scalars are repeated."""
-    import pandas as pd
-
-    return pd.DataFrame({name: np.array(values) for name, values in columns.items()})
+    return of_extra("pandas").DataFrame({name: np.array(values) for name, values in columns.items()})
 
 
+@reported
 def frame_of_rows(names: Sequence[str], rows: Sequence[Sequence[Any]]) -> pd.DataFrame:
     """A frame of rows."""
-    import pandas as pd
-
-    return pd.DataFrame(list(rows), columns=list(names))
+    return of_extra("pandas").DataFrame(list(rows), columns=list(names))
 
 
 def csv_of(frame: pd.DataFrame) -> str:

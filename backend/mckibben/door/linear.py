@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from importlib import import_module
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
@@ -17,6 +16,7 @@ from mckibben.application.linear.result import LinearResult, ModelResult
 from mckibben.door.frames import frame_of
 from mckibben.door.problem import reported
 from mckibben.door.result import ResultOf
+from mckibben.door.stepper import python_control
 from mckibben.door.values import FloatArray
 from mckibben.facts.result import read_only
 from mckibben.physics.errors import InputError, did_you_mean
@@ -103,10 +103,7 @@ class LinearView(ResultOf[LinearResult], LinearResult):
             Problem: python-control is not installed, or there is no model of this name.
         """
         found = self._model(model)
-        try:
-            control = cast(Any, import_module("control"))
-        except ImportError as error:
-            raise InputError("python-control is not installed", hint="pip install control") from error
+        control = python_control()
         names = {
             kind: [port.name for port in getattr(found, kind)] for kind in ("states", "inputs", "outputs")
         }

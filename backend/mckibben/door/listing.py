@@ -5,67 +5,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Generic, TypeVar
 
+from mckibben.application.listing import EffectCard, PresetCard, effect_cards, preset_cards
 from mckibben.door.frames import frame_of_rows
 from mckibben.door.problem import reported
 from mckibben.door.rendering import notebook_cell, plain_text
 from mckibben.door.workspace import studio
-from mckibben.physics.parameter import Parameter
 from mckibben.report.summary import Summary, Table
 
 if TYPE_CHECKING:
     import pandas as pd
-
-
-@dataclass(frozen=True, slots=True)
-class PresetCard:
-    """A preset.
-
-    Attributes:
-        kind: "muscles", "valves" and the like.
-        id, title, maker, description: what it is.
-        verified: whether every value was read in a source.
-        own: whether it is the user's own.
-        document: its file, every value with unit, source and grade.
-    """
-
-    kind: str
-    id: str
-    title: str
-    maker: str
-    description: str
-    verified: bool
-    own: bool
-    document: Mapping[str, Any]
-
-
-@dataclass(frozen=True, slots=True)
-class EffectCard:
-    """A physical effect.
-
-    Attributes:
-        id, title: what it is.
-        family: geometry, elastomer, friction, gas, valve, tube, supply, load or sensor.
-        type: static, rate, hysteretic, dynamic or measurement.
-        cause: why it exists.
-        equation: LaTeX of what it adds or changes.
-        parameters: name -> symbol, SI unit, default, bounds, source, description.
-        kinds: kinds of measurements that reveal it.
-        confused_with: effect -> the experiment that separates it.
-    """
-
-    id: str
-    title: str
-    family: str
-    type: str
-    cause: str
-    equation: str
-    parameters: Mapping[str, Parameter]
-    kinds: frozenset[str]
-    confused_with: Mapping[str, str]
 
 
 CardT = TypeVar("CardT", PresetCard, EffectCard)
@@ -121,42 +71,14 @@ def presets(kind: str | None = None) -> Listing[PresetCard]:
     """
     library = studio().library
     if kind is not None:
-        return Listing(kind.capitalize(), _cards(kind), ("id", "title", "maker", "verified"))
-    cards = {f"{each}/{id}": card for each in library.kinds for id, card in _cards(each).items()}
-    return Listing("Presets", cards, ("kind", "id", "title"))
-
-
-def _cards(kind: str) -> dict[str, PresetCard]:
-    return {
-        preset.id: PresetCard(
-            kind=kind,
-            id=preset.id,
-            title=preset.heading,
-            maker=preset.maker,
-            description=preset.description,
-            verified=preset.verified,
-            own=preset.origin == "user",
-            document=MappingProxyType(preset.to_document()),
-        )
-        for preset in studio().library.list(kind)
+        return Listing(kind.capitalize(), preset_cards(studio(), kind), ("id", "title", "maker", "verified"))
+    cards = {
+        f"{each}/{id}": card for each in library.kinds for id, card in preset_cards(studio(), each).items()
     }
+    return Listing("Presets", cards, ("kind", "id", "title"))
 
 
 @reported
 def effects() -> Listing[EffectCard]:
     """The physical effects, with equation, parameters and what they are confused with."""
-    cards = {
-        effect.id: EffectCard(
-            id=effect.id,
-            title=effect.title,
-            family=effect.family,
-            type=effect.type,
-            cause=effect.cause,
-            equation=effect.equation,
-            parameters=MappingProxyType({p.name: p for p in effect.parameters}),
-            kinds=frozenset(effect.kinds),
-            confused_with=MappingProxyType({twin.effect: twin.separated_by for twin in effect.confused_with}),
-        )
-        for effect in studio().catalogue.values()
-    }
-    return Listing("Effects", cards, ("id", "title", "family", "type"))
+    return Listing("Effects", effect_cards(studio()), ("id", "title", "family", "type"))

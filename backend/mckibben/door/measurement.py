@@ -19,10 +19,11 @@ from mckibben.application.measurement.experiment import QuestionMeasurement, sta
 from mckibben.application.measurement.files import ARGUMENT, FileOptions, file_options, measurements_of
 from mckibben.application.measurement.summary import MeasurementSummary, details_of
 from mckibben.application.measurement.summary import summary_of as facts_of
+from mckibben.application.text_file import check_ending
 from mckibben.documents.doors import in_words_of, result_in_words_of
 from mckibben.door.frames import csv_of, frame_of
 from mckibben.door.problem import reported
-from mckibben.door.result import Result, unknown_ending
+from mckibben.door.result import Result
 from mckibben.door.values import Quantity, names_of
 from mckibben.door.workspace import studio
 from mckibben.facts.result import read_only
@@ -239,11 +240,9 @@ class Measurement(Result):
 
     def _files(self, path: Path) -> str:
         """``.csv``: the canonical file with conditions and origins; ``.json``: summary and columns."""
-        if path.suffix.lower() == ".csv":
+        if check_ending(path, (".csv", ".json")) == ".csv":
             return converted(self._data).text
-        if path.suffix.lower() == ".json":
-            return to_json(self._answer()).decode() + "\n"
-        raise unknown_ending(path, (".csv", ".json"))
+        return to_json(self._answer()).decode() + "\n"
 
     def _answer(self) -> object:
         return result_in_words_of("python", details_of(self._data))

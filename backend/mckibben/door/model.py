@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike, fspath
 from pathlib import Path
@@ -13,10 +14,13 @@ import numpy as np
 
 from mckibben.application.compare.compare import compared_whole
 from mckibben.application.curves.curves import DEFAULT_PRESSURES, CurvesQuestion, curves, pressures_of
+from mckibben.application.curves.inverse import answer, question_of_document
 from mckibben.application.diagnose.diagnose import prepare
 from mckibben.application.model.saved import fitted_model, keep, model_text, saved_model
 from mckibben.application.muscle_summary import GeometrySummary, geometry_of, start_notices
-from mckibben.application.text_file import write_text
+from mckibben.application.operating_limits import pressure_notices
+from mckibben.application.text_file import check_ending, write_text
+from mckibben.documents.inverse import read_inverse
 from mckibben.documents.saved_model import SavedModel
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
@@ -24,6 +28,7 @@ from mckibben.door.comparison import Comparison
 from mckibben.door.curves import Curves
 from mckibben.door.diagnosis import Diagnosis
 from mckibben.door.exported import Exportable, model_to_export
+from mckibben.door.inverse import Inverse
 from mckibben.door.problem import reported
 from mckibben.door.questions import Data, DocumentedDrive, StatedModel, question_of, watch_of
 from mckibben.door.rendering import notebook_cell, plain_text
@@ -288,6 +293,52 @@ class Model(Exportable):
         )
         return Curves.of(curves(question, self._studio), _name=self.name)
 
+    @reported
+    def inverse(
+        self,
+        question: str,
+        *,
+        force: Quantity | None = None,
+        length: Quantity | None = None,
+        contraction: Quantity | None = None,
+        pressure: Quantity | None = None,
+        load: Quantity | None = None,
+        preload: Quantity | None = None,
+        stroke: Quantity | None = None,
+        direction: int | None = None,
+        temperature: Quantity | None = None,
+    ) -> Inverse:
+        """Which pressure, contraction or stroke belongs to a force; `value` is the answer.
+
+        Args:
+            question: "pressure" (of ``force`` at ``length`` or ``contraction``), "contraction" (of ``force``
+                at ``pressure``), "working_range" (from ``preload`` without pressure to ``load`` at
+                ``pressure``) or "stroke_pressure" (that lifts ``load`` by ``stroke``).
+            force: of the muscle [N].
+            length, contraction: where it acts.
+            pressure: gauge pressure [Pa].
+            load, preload: at the end and at the start of the stroke [N].
+            stroke: from the rest length [m].
+            direction: sign of dL/dt, for friction: -1 shortening, 1 lengthening, 0 none.
+            temperature: of the muscle [K].
+
+        Raises:
+            Problem: an unknown question, a quantity that is missing, not asked for or impossible.
+        """
+        stated = {
+            "question": question, "force": force, "length": length, "contraction": contraction,
+            "pressure": pressure, "load": load, "preload": preload, "stroke": stroke, "direction": direction,
+            "temperature": temperature,
+        }  # fmt: skip
+        document = read_inverse(stated)
+        start = self._stated.start(self._studio)
+        found = answer(question_of_document(document, start), self._studio)
+
+        def at(pressures: list[float]) -> Curves:
+            return self.curves(pressures or None)
+
+        return Inverse.of(found, _name=self.name, _curves=at)
+
     def plot(self, pressure: str | Sequence[Quantity] | FloatArray | None = None) -> Figure:
         """Force over contraction at some pressures; a Plotly figure."""
         return self.curves(pressure).plot()
@@ -304,6 +355,7 @@ class Model(Exportable):
         drive: DocumentedDrive | None = None,
         validate: Data = (),
         strict: bool = False,
+        ties: Mapping[str, str] | None = None,
     ) -> Comparison[Model]:
         """The error of this model on measurements, with or without a fit.
 
@@ -316,6 +368,8 @@ class Model(Exportable):
             drive: a `mckibben.Drive`: valve, tube, supply and load of a transient measurement.
             validate: measurements to check the model on, which it is not fitted to; see ``validation``.
             strict: refuse instead of assuming what nobody states.
+            ties: fitted constants that always have the value of another one,
+                ``{"valve_delay.closing_time": "valve_delay.opening_time"}``.
 
         Raises:
             Problem: names the file or argument, what is wrong and what would be right.
@@ -324,7 +378,7 @@ class Model(Exportable):
             self._stated, self._studio, data, free=free, use=use, keep=keep,
             drive=None if drive is None else drive.parsed, strict=strict, refit=fit, validate=validate,
         )  # fmt: skip
-        compared = compared_whole(question, fit=fit)
+        compared = compared_whole(question, fit=fit, ties=ties)
         model = self
         if compared.comparison.fit is not None:
             saved = fitted_model(question, compared, self._studio)
@@ -362,15 +416,22 @@ class Model(Exportable):
         result = prepare(question, self._studio)(watch_of(progress))
         saved = saved_model(question, result, self._studio)
         model = Model.of(StatedModel.of_saved(saved, "the diagnosed model"), self._studio)
-        return Diagnosis[Model].of(result, model=model, _question=question, _studio=self._studio, _name=names)
+
+        def again() -> Comparison[Model]:
+            return model.compare(data, fit=True, use=use, keep=keep, drive=drive, strict=strict)
+
+        return Diagnosis[Model].of(
+            result, model=model, _question=question, _studio=self._studio, _name=names, _again=again
+        )
 
     @reported
     def save(self, path: str | PathLike[str]) -> None:
         """Write the model as JSON, for `mckibben.load` and the option ``--model`` of the command line.
 
         Raises:
-            Problem: the file cannot be written.
+            Problem: the file cannot be written, or its ending is not .json.
         """
+        check_ending(Path(path), (".json",))
         write_text(Path(path), model_text(self._saved()))
 
     @reported
@@ -517,6 +578,9 @@ def _force_of(
     pressures = array_of(pressure, "Pa", "pressure", "gauge")
     if np.any((pressures < 0.0) | (pressures > _HIGHEST)):
         raise InputError("pressure: a value is not between 0 and 1000 bar", hint="gauge pressures")
+    smallest = float(np.min(pressures[pressures > 0.0], initial=np.inf))
+    for notice in pressure_notices({"pressure": smallest}):
+        warnings.warn(notice.message, stacklevel=4)  # at the line that calls `Model.force`
     try:
         columns = np.broadcast_arrays(pressures, lengths, senses)
     except ValueError as error:

@@ -15,6 +15,7 @@ from mckibben.door.frames import frame_of_rows
 from mckibben.door.measurement import Measurement
 from mckibben.door.problem import reported
 from mckibben.door.rendering import notebook_cell, plain_text
+from mckibben.extras import of_extra
 from mckibben.measurement.points import Points
 from mckibben.measurement.reading import read_correction, read_measurement
 from mckibben.physics.errors import InputError
@@ -53,8 +54,7 @@ class Project:
     @reported
     def list() -> pd.DataFrame:
         """All projects, the one changed last first; instants are UTC."""
-        import pandas as pd
-
+        pd = of_extra("pandas")
         rows = [
             (e.title, e.id, pd.Timestamp(e.changed, unit="s", tz="UTC"), e.version, e.files, e.size)
             for e in _store().list()
@@ -142,8 +142,7 @@ class Project:
     @reported
     def history(self) -> pd.DataFrame:
         """Its versions, the last one first; instants are UTC."""
-        import pandas as pd
-
+        pd = of_extra("pandas")
         rows = [
             (e.version, pd.Timestamp(e.saved, unit="s", tz="UTC"), e.label, e.automatic)
             for e in self._projects.history(self.id)

@@ -16,10 +16,12 @@ from mckibben.application.measurement.experiment import QuestionModel
 from mckibben.application.measurement.files import ARGUMENT
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_reading import drive_of, read_document
+from mckibben.documents.kinds import kind_of
 from mckibben.documents.located import at_file
 from mckibben.documents.model_files import drive_document, saved_model
 from mckibben.documents.muscle_files import Effects, preset_of_file, start_of_input, with_length
 from mckibben.documents.saved_model import SavedModel, read_saved_model, with_record
+from mckibben.documents.shorthand import MUSCLE_TEXT
 from mckibben.documents.start_model import PresetFacts, StartModel
 from mckibben.documents.studio import Studio
 from mckibben.door.measurement import Measurement, read
@@ -81,7 +83,7 @@ class StatedModel:
         Raises:
             InputError: there is no muscle.
         """
-        muscle = document.get("muscle")
+        muscle = MUSCLE_TEXT.document(document.get("muscle"))
         if not isinstance(muscle, Mapping):
             place = f"{source}: " if source else ""
             raise InputError(f"{place}the document has no muscle", hint='{"muscle": {"preset": "DMSP-20"}}')
@@ -99,21 +101,22 @@ class StatedModel:
         """
         source = str(path)
         try:
-            saved = _is_saved(read_file(path, follow_links=True))
+            content = read_file(path, follow_links=True)
         except BadDocumentError as bad:
             raise at_file(
                 source, bad.findings[0].field, bad.findings[0].message, bad.findings[0].hint
             ) from bad
-        if saved:
+        if _is_saved(content):
             return cls.of_saved(saved_model(source), source)
+        if kind_of(content) == "drive" or (
+            isinstance(content, dict) and ("muscle" in content or "drive" in content)
+        ):
+            return cls.of_parts(drive_document(source, studio), source, studio)
         content = preset_of_file(path, studio)
         if isinstance(content, PresetFacts):
             return cls({}, None, None, source, content)
         if isinstance(content, dict):
-            document = cast("dict[str, object]", content)
-            if "muscle" in document or "drive" in document:
-                return cls.of_parts(drive_document(source), source, studio)
-            return cls(document, None, None, source)
+            return cls(cast("dict[str, object]", content), None, None, source)
         raise InputError(f"{source}: holds no model", hint='e.g. {"preset": "DMSP-20"}')
 
     def changed(

@@ -13,12 +13,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar, cast
 
 from mckibben.application.json_text import answer_json
-from mckibben.application.text_file import write_text
+from mckibben.application.text_file import check_ending, write_text
 from mckibben.documents.doors import result_in_words_of
 from mckibben.door.frames import csv_of
 from mckibben.door.problem import reported
 from mckibben.door.rendering import notebook_cell, plain_text
-from mckibben.physics.errors import InputError
 from mckibben.report.summary import Summary
 
 if TYPE_CHECKING:
@@ -141,11 +140,9 @@ class Result(Frozen, ABC):
 
     def _files(self, path: Path) -> str:
         """The content of a file with this ending."""
-        if path.suffix.lower() == ".json":
+        if check_ending(path, (".json", ".csv")) == ".json":
             return answer_json(self._answer()).decode() + "\n"
-        if path.suffix.lower() == ".csv":
-            return csv_of(self.to_frame())
-        raise unknown_ending(path, (".json", ".csv"))
+        return csv_of(self.to_frame())
 
     def __str__(self) -> str:
         return plain_text(self._summary())
@@ -166,8 +163,3 @@ class ResultOf(Result, Holding[ResultT]):
 
     def _answer(self) -> object:
         return self._result
-
-
-def unknown_ending(path: Path, known: Sequence[str]) -> InputError:
-    """A file is to be written in a form that is not known."""
-    return InputError(f"{path}: '{path.suffix}' is not a known ending", hint=f"one of {', '.join(known)}")

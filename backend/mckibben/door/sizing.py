@@ -17,7 +17,7 @@ from mckibben.application.size.size import (
     sizing_question,
 )
 from mckibben.application.size.task import heading_of
-from mckibben.application.text_file import write_text
+from mckibben.application.text_file import HTML, check_ending, write_text
 from mckibben.documents.located import at_file
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask, named_task, read_task
@@ -94,6 +94,7 @@ class Sizing(ResultOf[SizingResult], SizingResult):
         """
         from mckibben.report.sizing.gather import report_of
 
+        check_ending(Path(path), HTML)
         write_text(Path(path), report_of(self._search, self._studio, proposal=proposal, title=title))
 
     def _summary(self) -> Summary:

@@ -9,10 +9,12 @@ from typing import Any, cast
 
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_reading import named_document, read_document
+from mckibben.documents.kinds import kind_of
 from mckibben.documents.located import at_file
 from mckibben.documents.model_files import drive_document, saved_model
 from mckibben.documents.muscle_files import Effects, is_file, start_of_file, start_of_input
 from mckibben.documents.saved_model import SavedModel
+from mckibben.documents.shorthand import MUSCLE_TEXT
 from mckibben.documents.start_model import stated_muscle
 from mckibben.documents.studio import Studio
 from mckibben.export.subject import Stated
@@ -34,13 +36,12 @@ def stated_source(name: str, studio: Studio) -> Stated:
     if name in drives:
         return _drive_preset(name, studio)
     if not is_file(name, studio) and not Path(name).exists():
-        preset, colon, length = name.partition(":")
+        preset = name.partition(":")[0]
         muscles = [each.id for each in studio.library.list("muscles")]
         if preset.lower() not in {each.lower() for each in muscles}:
             known = did_you_mean(preset, [*drives, *muscles])
             raise InputError(f"{name[:80]}: there is no such file, muscle preset or drive preset", hint=known)
-        document = {"preset": preset, **({"nominal_length": length} if colon else {})}
-        return Stated(start_of_input(studio, document, None, name))
+        return Stated(start_of_input(studio, MUSCLE_TEXT.document(name), None, name))
     return _file(Path(name), studio)
 
 
@@ -55,10 +56,10 @@ def _file(path: Path, studio: Studio) -> Stated:
     kind = document.get("kind")
     if kind == "model":
         return of_saved(saved_model(source), studio, source)
-    if kind == "drive" or "valve" in document or "valve" in (document.get("drive") or {}):
+    if kind_of(document) in ("drive", "task", "study") or "valve" in (document.get("drive") or {}):
         return of_drive(named_document(source, studio), studio, source)
     if "muscle" in document and kind is None:
-        parts = drive_document(source)
+        parts = drive_document(source, studio)
         return Stated(
             start_of_input(studio, parts["muscle"], cast("Effects | None", parts.get("effects")), source)
         )

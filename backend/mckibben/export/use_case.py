@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from mckibben.application.text_file import check_ending
 from mckibben.documents.studio import Studio
 from mckibben.export.language import words_of
 from mckibben.export.registry import ExportedFile, Format, format_named, zipped
@@ -104,8 +105,9 @@ def write_export(
 
     Args:
         question: what; its stem is that of the path.
-        path: of the main file, whose ending is kept; the others stand beside it under the same stem. An
-            ending ``.zip`` packs several files into one. A folder takes them under the name of the model.
+        path: of the main file, with the ending of the format; the others stand beside it under the same
+            stem. An ending ``.zip`` packs several files into one. A folder takes them under the name of the
+            model.
         studio: presets.
         named: how the user named the path, "-o muscle.c"; by default the path.
         remark: is told what the user should know of the files.
@@ -131,13 +133,11 @@ def write_export(
             raise
         raise InputError(f"{named}: {error.message}", hint=error.hint) from error
     done = _told(done, remark)
+    endings = list(dict.fromkeys(Path(each.name).suffix for each in done.files))
+    usable = endings if form.alternatives else endings[:1]
+    check_ending(path, (*usable, ".zip") if len(done.files) > 1 else usable, named=named)
     if form.alternatives:
         wanted = [each for each in done.files if Path(each.name).suffix == path.suffix.lower()]
-        if not wanted and path.suffix.lower() != ".zip":
-            known = ", ".join(Path(each.name).suffix for each in done.files)
-            raise InputError(
-                f"{named}: {form.title} are not written as '{path.suffix}'", hint=f"end the name with {known}"
-            )
         done = replace(done, files=tuple(wanted) or done.files)
     if len(done.files) == 1:
         return [_written(path, done.files[0].content, named)]

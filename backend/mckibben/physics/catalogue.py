@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import importlib.machinery
 import importlib.util
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache
+from importlib.metadata import EntryPoint, EntryPoints, entry_points
 from pathlib import Path
 from types import CodeType
 
@@ -13,6 +14,7 @@ from mckibben.facts.result import result_class
 from mckibben.physics.custom import CUSTOM
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError, did_you_mean, error_text
+from mckibben.physics.worked_examples import wrong_examples
 
 BUILT_IN_FOLDER = Path(__file__).parent / "effects"
 _LONGEST_NAME = 64  # characters, as in a request
@@ -37,25 +39,33 @@ class EffectCatalogue(Mapping[str, Effect]):
 
     Args:
         folders: additional folders whose Python files are loaded, and thus executed, as effects.
+        installed: effects of installed packages, as `installed_effects` finds them.
     """
 
-    def __init__(self, folders: Sequence[Path] = ()) -> None:
+    def __init__(self, folders: Sequence[Path] = (), installed: Iterable[EntryPoint] = ()) -> None:
         self.problems: list[EffectProblem] = []
-        by_id = {path.stem: _load(path) for path in _files(BUILT_IN_FOLDER)}
+        self._effects = {path.stem: _load(path) for path in _files(BUILT_IN_FOLDER)}
+        for point in installed:
+            self._add(point.name, f"{point.name} of a package", lambda point=point: _of_package(point))
         for folder in folders:
             if not folder.is_dir():
                 raise InputError(f"effects folder {folder} does not exist", field="effects")
             for path in _files(folder):
-                try:
-                    _check_name(path, by_id)
-                    by_id[path.stem] = _load(path)
-                except KeyboardInterrupt:
-                    raise
-                except (
-                    BaseException
-                ) as error:  # a user's file may fail in any way, also by ending the program
-                    self.problems.append(EffectProblem(path.name, _problem_text(error, path)))
-        self._effects = dict(sorted(by_id.items()))
+                self._add(path.stem, path.name, lambda path=path: _of_file(path), path)
+        self._effects = dict(sorted(self._effects.items()))
+
+    def _add(self, name: str, source: str, load: Callable[[], Effect], path: Path | None = None) -> None:
+        """Add an effect that is not of the program; what is wrong with it is a problem and stops nothing."""
+        try:
+            _check_name(name, self._effects)
+            effect = load()
+            if wrong := wrong_examples(effect=effect):
+                raise ValueError("; ".join(wrong))
+            self._effects[name] = effect
+        except KeyboardInterrupt:
+            raise
+        except BaseException as error:  # a user's code may fail in any way, also by ending the program
+            self.problems.append(EffectProblem(source, _problem_text(error, path)))
 
     def __getitem__(self, effect_id: str) -> Effect:
         try:
@@ -88,11 +98,45 @@ def _files(folder: Path) -> list[Path]:
     return sorted(path for path in folder.glob("*.py") if not path.stem.startswith("_"))
 
 
-def _check_name(path: Path, known: Iterable[str]) -> None:
-    """Refuse a file whose name cannot be the id of an effect, or that is no plain file."""
-    name = path.stem
+def installed_effects() -> EntryPoints:
+    """The effects that installed packages offer as entry points of the group ``mckibben.effects``.
+
+    The name is the id; it points to an `Effect`, or to a module with ``EFFECT``. Nothing is imported here.
+    """
+    return entry_points(group="mckibben.effects")
+
+
+def effect_of_file(path: Path) -> Effect:
+    """The effect in one file, with the file's name as its id; its examples are not evaluated.
+
+    Raises:
+        InputError: it cannot be loaded; says where and why.
+    """
+    try:
+        _check_name(path.stem, ())
+        return _of_file(path)
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # as in a folder of effects
+        raise InputError(f"{path}: {_problem_text(error, path)}", field="effect") from error
+
+
+def _of_file(path: Path) -> Effect:
     if not path.is_file():  # reading a pipe would never end
         raise ValueError("it is not a plain file")
+    return _load(path)
+
+
+def _of_package(point: EntryPoint) -> Effect:
+    found = point.load()
+    effect = getattr(found, "EFFECT", found)
+    if not isinstance(effect, Effect):
+        raise ValueError(f"{point.value} is neither an Effect nor a module with EFFECT = Effect(...)")
+    return effect.named(point.name)
+
+
+def _check_name(name: str, known: Iterable[str]) -> None:
+    """Refuse a name that cannot be the id of an effect."""
     if name in known:
         raise ValueError(f"an effect '{name}' exists already; rename the file")
     if name == CUSTOM:
@@ -104,9 +148,9 @@ def _check_name(path: Path, known: Iterable[str]) -> None:
         )
 
 
-def _problem_text(error: BaseException, path: Path) -> str:
+def _problem_text(error: BaseException, path: Path | None) -> str:
     """The problem of a file in one line: line number, type and message of the error."""
-    line, file = 0, str(path.absolute())
+    line, file = 0, "" if path is None else str(path.absolute())
     for raised in (error, error.__cause__):
         step = None if raised is None else raised.__traceback__
         while step is not None:

@@ -18,6 +18,8 @@ from mckibben.physics.parameter import MuscleSize, Parameter, Source
 from mckibben.physics.slots import SLOTS
 
 Kind = Literal["isobaric", "isometric", "isotonic", "diameter", "transient", "static"]
+#: Version of the contract: a file that states another one is refused. Additions do not change it.
+INTERFACE = 1
 KINDS: tuple[Kind, ...] = ("isobaric", "isometric", "isotonic", "diameter", "transient", "static")
 TYPES = ("static", "rate", "hysteretic", "dynamic", "measurement")
 FAMILIES = ("geometry", "elastomer", "friction", "gas", "valve", "tube", "supply", "load", "sensor")
@@ -165,6 +167,7 @@ class Effect:
             muscle does not try it, because it would imitate other effects of the geometry.
         prior: how likely it is before any data.
         states: states of the effect; ``rates`` (of the muscle) or ``drive_rates`` gives their derivatives.
+        interface: version of `mckibben.effects` that the file was written for.
         id: the file name, set by the catalogue.
     """
 
@@ -185,10 +188,15 @@ class Effect:
     among_lengths: bool = False
     prior: Prior = Prior(0.2, "it is not known how often it occurs")
     states: tuple[StateVariable, ...] = ()
+    interface: int = INTERFACE
     id: str = ""
     _wanted: Mapping[str, tuple[str, ...]] = field(default_factory=dict, repr=False)
 
     def __post_init__(self) -> None:
+        if self.interface != INTERFACE:
+            raise ValueError(
+                f"it is written for version {self.interface} of mckibben.effects, and this is {INTERFACE}"
+            )
         for name, value, known in (("family", self.family, FAMILIES), ("type", self.type, TYPES)):
             if value not in known:
                 raise ValueError(f"{name} '{value}' is not one of {', '.join(known)}")

@@ -2,19 +2,10 @@
 
 from __future__ import annotations
 
-from typing import assert_never
-
 from mckibben.application.compare.question import ModelQuestion, question_of
 from mckibben.application.compare.stated_question import with_noise
 from mckibben.application.curves.curves import CurvesQuestion
-from mckibben.application.curves.inverse import (
-    ContractionForForce,
-    InverseQuestion,
-    MuscleCondition,
-    PressureForForce,
-    PressureForStroke,
-    WorkingRange,
-)
+from mckibben.application.curves.inverse import InverseQuestion, question_of_document
 from mckibben.application.diagnose.doubts import with_decisions
 from mckibben.application.measurement.experiment import QuestionMeasurement, QuestionModel
 from mckibben.documents.drive import DriveDocument
@@ -28,17 +19,9 @@ from mckibben.measurement.points import find_points
 from mckibben.measurement.preparation import prepared_points
 from mckibben.measurement.store import MeasurementStore
 from mckibben.physics.errors import InputError, fields_inside
-from mckibben.server.schemas.curves import (
-    ContractionQuestion,
-    CurvesRequest,
-    PressureQuestion,
-    StrokePressureQuestion,
-    WorkingRangeQuestion,
-)
+from mckibben.server.schemas.curves import CurvesRequest, InverseRequest
 from mckibben.server.schemas.models import ModelRequest
 from mckibben.simulation.statics.characteristics import Conditions
-
-Body = PressureQuestion | ContractionQuestion | WorkingRangeQuestion | StrokePressureQuestion
 
 
 def model_question(body: ModelRequest, studio: Studio, store: MeasurementStore) -> ModelQuestion:
@@ -185,26 +168,10 @@ def curves_question(body: CurvesRequest, studio: Studio) -> CurvesQuestion:
     )
 
 
-def inverse_question(body: Body, studio: Studio) -> InverseQuestion:
+def inverse_question(body: InverseRequest, studio: Studio) -> InverseQuestion:
     """The question of a request.
 
     Raises:
         InputError: an unknown preset, effect or parameter, or no complete muscle.
     """
-    start = studio.start_model(stated_muscle(body.muscle), body.effects)
-    condition = MuscleCondition(start, body.temperature)
-    match body:
-        case PressureQuestion(force=force, length=length, contraction=contraction, direction=direction):
-            return PressureForForce(
-                condition=condition, force=force, length=length, contraction=contraction, direction=direction
-            )
-        case ContractionQuestion(force=force, pressure=pressure, direction=direction):
-            return ContractionForForce(
-                condition=condition, force=force, pressure=pressure, direction=direction
-            )
-        case WorkingRangeQuestion(load=load, pressure=pressure, preload=preload):
-            return WorkingRange(condition=condition, load=load, pressure=pressure, preload=preload)
-        case StrokePressureQuestion(load=load, stroke=stroke):
-            return PressureForStroke(condition=condition, load=load, stroke=stroke)
-        case _:
-            assert_never(body)
+    return question_of_document(body, studio.start_model(stated_muscle(body.muscle), body.effects))

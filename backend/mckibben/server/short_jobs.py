@@ -29,14 +29,13 @@ from mckibben.measurement.store import MeasurementStore, clean_name
 from mckibben.physics.errors import InputError, fields_inside
 from mckibben.server.answer import answer_of
 from mckibben.server.job import LONGEST, Job, Prepared
-from mckibben.server.questions import Body as InverseBody
 from mckibben.server.questions import (
     curves_question,
     inverse_question,
     measurements_of_question,
     model_question,
 )
-from mckibben.server.schemas.curves import CurvesRequest
+from mckibben.server.schemas.curves import CurvesRequest, InverseRequest
 from mckibben.server.schemas.drives import SimulationRequest
 from mckibben.server.schemas.exports import ExportRequest
 from mckibben.server.schemas.models import ComparisonRequest, DiagnosisRequest
@@ -191,6 +190,7 @@ def _comparison(body: ComparisonRequest, studio: Studio, store: MeasurementStore
             fit=body.fit,
             within=body.within,
             explain=body.explain,
+            ties=body.ties,
             judge=body.judge,
         )
     )
@@ -234,7 +234,7 @@ def _curves(body: CurvesRequest, studio: Studio, _store: MeasurementStore) -> Pr
     return lambda _: to_json(curves(curves_question(body, studio), studio))
 
 
-def _inverse(body: InverseBody, studio: Studio, _store: MeasurementStore) -> Prepared:
+def _inverse(body: InverseRequest, studio: Studio, _store: MeasurementStore) -> Prepared:
     return lambda _: to_json(answer(inverse_question(body, studio), studio))
 
 

@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from mckibben.extras import of_extra
 from mckibben.studies.plan import Batches
 from mckibben.studies.table import COMPLETED, Figure, Row, StudyTable
 from mckibben.studies.variable import Variable
@@ -77,14 +78,11 @@ class OptimisationPlan:
 
     def batches(self) -> Batches:
         """One generation after the other."""
-        from pymoo.core.evaluator import Evaluator
-        from pymoo.core.problem import Problem
-        from pymoo.core.termination import NoTermination
-        from pymoo.problems.static import StaticProblem
-
+        core = {name: of_extra(f"pymoo.core.{name}") for name in ("evaluator", "problem", "termination")}
+        evaluator, static = core["evaluator"].Evaluator(), of_extra("pymoo.problems.static")
         count = len(self.variables)
         checks = 1 + sum(np.isfinite([limit.at_least, limit.at_most]).sum() for limit in self.limits)
-        problem = Problem(  # type: ignore - told from outside, it evaluates nothing
+        problem = core["problem"].Problem(  # told from outside, it evaluates nothing
             n_var=count,
             n_obj=len(self.goals),
             n_ieq_constr=int(checks),
@@ -92,7 +90,7 @@ class OptimisationPlan:
             xu=np.ones(count),
         )
         search = _algorithm(len(self.goals), self.population)
-        search.setup(problem, termination=NoTermination(), seed=self.seed, verbose=False)
+        search.setup(problem, termination=core["termination"].NoTermination(), seed=self.seed, verbose=False)
         for _ in range(self.generations):
             asked = search.ask()
             if asked is None or not len(asked):
@@ -100,7 +98,7 @@ class OptimisationPlan:
             shares = np.asarray(asked.get("X"), float)
             points = np.column_stack([v.at(shares[:, i]) for i, v in enumerate(self.variables)])
             goals, violations = self._judged((yield points))
-            Evaluator().eval(StaticProblem(problem, F=goals, G=violations), asked)
+            evaluator.eval(static.StaticProblem(problem, F=goals, G=violations), asked)
             search.tell(infills=asked)
 
     def _judged(self, rows: Sequence[Row]) -> tuple[Array, Array]:
@@ -122,12 +120,8 @@ class OptimisationPlan:
 def _algorithm(goals: int, population: int) -> Any:
     """The search for so many goals."""
     if goals == 1:
-        from pymoo.algorithms.soo.nonconvex.de import DE
-
-        return DE(pop_size=population)
-    from pymoo.algorithms.moo.nsga2 import NSGA2
-
-    return NSGA2(pop_size=population)
+        return of_extra("pymoo.algorithms.soo.nonconvex.de").DE(pop_size=population)
+    return of_extra("pymoo.algorithms.moo.nsga2").NSGA2(pop_size=population)
 
 
 def keeps(table: StudyTable, limits: Sequence[FigureLimit]) -> Array:

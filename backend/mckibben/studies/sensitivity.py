@@ -15,6 +15,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from mckibben.extras import of_extra
 from mckibben.facts.result import result_class
 from mckibben.facts.study import INFLUENCE
 from mckibben.studies.plan import FixedPlan
@@ -71,7 +72,7 @@ class SobolPlan(FixedPlan):
 
     def sensitivity(self, table: StudyTable, confidence: float) -> list[Sensitivity]:
         """First-order and total indices of each figure."""
-        from SALib.analyze import sobol
+        sobol = of_extra("SALib.analyze.sobol")
 
         def analyse(values: Array, _: Array) -> list[dict[str, float]]:
             found = sobol.analyze(
@@ -86,7 +87,7 @@ class SobolPlan(FixedPlan):
 
 def sobol_plan(variables: Sequence[Variable], samples: int, seed: int) -> SobolPlan:
     """Saltelli's sampling on a scrambled Sobol sequence: samples * (variables + 2) runs."""
-    from SALib.sample import sobol
+    sobol = of_extra("SALib.sample.sobol")
 
     shares = sobol.sample(_problem(variables), samples, calc_second_order=False, seed=seed)
     return SobolPlan(tuple(variables), points_of(variables, np.asarray(shares)), seed)
@@ -107,7 +108,7 @@ class MorrisPlan(FixedPlan):
 
     def sensitivity(self, table: StudyTable, confidence: float) -> list[Sensitivity]:
         """Elementary effects on each figure."""
-        from SALib.analyze import morris
+        morris = of_extra("SALib.analyze.morris")
 
         def analyse(values: Array, runs: Array) -> list[dict[str, float]]:
             found = morris.analyze(
@@ -131,7 +132,7 @@ def morris_plan(variables: Sequence[Variable], trajectories: int, levels: int, s
     A range is covered from end to end; a distribution, which may be unbounded, between its quantiles
     0.5 / levels and 1 - 0.5 / levels.
     """
-    from SALib.sample import morris
+    morris = of_extra("SALib.sample.morris")
 
     shares = np.asarray(morris.sample(_problem(variables), trajectories, num_levels=levels, seed=seed))
     outside = np.array([0.5 / levels if variable.tolerance else 0.0 for variable in variables])

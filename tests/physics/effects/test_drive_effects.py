@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from mckibben.application.effect.runs import run
 from mckibben.documents.drive import GasInput
 from mckibben.physics import gas
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.muscle import Muscle
-from tests.physics.contract_dynamic import run
 
 CATALOGUE = default_catalogue()
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from mckibben.application.effect.runs import Swing, driven, run
+from mckibben.application.effect.states import MUSCLE
 from mckibben.physics.catalogue import default_catalogue
-from tests.physics.contract_dynamic import Swing, driven, run
-from tests.physics.contract_states import MUSCLE
 
 CREEP = default_catalogue()["creep"]
 MULLINS = default_catalogue()["mullins"]

@@ -7,10 +7,10 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
+from mckibben.application.effect.runs import PRESSED, STRETCHED, Swing, driven, run
+from mckibben.application.effect.states import MUSCLE
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.presliding import SLIDERS, shares_of_sliders
-from tests.physics.contract_dynamic import PRESSED, STRETCHED, Swing, driven, run
-from tests.physics.contract_states import MUSCLE
 
 CATALOGUE = default_catalogue()
 FRICTIONS = ("dahl", "bouc_wen", "maxwell_slip")

@@ -228,9 +228,10 @@ def compare(
     within: Mapping[Over, Sequence[float]] | None = None,
     explain: bool = False,
     judge: bool = True,
+    ties: Mapping[str, str] | None = None,
 ) -> ComparisonResult:
     """Compare a model with measurements; see `compared_whole`."""
-    return compared_whole(question, fit=fit, within=within, explain=explain, judge=judge).result
+    return compared_whole(question, fit=fit, within=within, explain=explain, judge=judge, ties=ties).result
 
 
 def compared_whole(
@@ -240,6 +241,7 @@ def compared_whole(
     within: Mapping[Over, Sequence[float]] | None = None,
     explain: bool = False,
     judge: bool = True,
+    ties: Mapping[str, str] | None = None,
 ) -> Compared:
     """Compare a model with measurements.
 
@@ -249,9 +251,11 @@ def compared_whole(
         within: variable -> range whose rows the answer looks at by themselves, SI.
         explain: also what each effect of the model explains of them.
         judge: also whether what is left is noise, which takes longer than the rest.
+        ties: fitted constants that always have the value of another one, both as "effect.parameter".
 
     Raises:
-        InputError: the measurement does not allow the comparison, or a geometry field cannot be freed.
+        InputError: the measurement does not allow the comparison, a geometry field cannot be freed, or a tied
+            constant is not fitted.
     """
     start, points = question.start, question.points
     comparison = compared(
@@ -261,6 +265,7 @@ def compared_whole(
         fit=fit,
         geometry=question.free_geometry(),
         freed=question.freed,
+        ties=ties,
         noise=question.noise,
     )
     predictor, left_out = comparison.predictor, sum(points.left_out.values())

@@ -8,6 +8,13 @@ from typing import ClassVar, Literal, assert_never
 
 from mckibben.application.muscle_summary import Notice, limit_notices, start_notices
 from mckibben.application.operating_limits import load_notices, pressure_notices, temperature_notices
+from mckibben.documents.inverse import (
+    ContractionQuestion,
+    InverseDocument,
+    PressureQuestion,
+    StrokePressureQuestion,
+    WorkingRangeQuestion,
+)
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
 from mckibben.facts.muscle import branch_of
@@ -89,6 +96,26 @@ class PressureForStroke:
 
 
 InverseQuestion = PressureForForce | ContractionForForce | WorkingRange | PressureForStroke
+
+
+def question_of_document(document: InverseDocument, start: StartModel) -> InverseQuestion:
+    """The question that a document asks of a muscle."""
+    condition = MuscleCondition(start, document.temperature)
+    match document:
+        case PressureQuestion(force=force, length=length, contraction=contraction, direction=direction):
+            return PressureForForce(
+                condition=condition, force=force, length=length, contraction=contraction, direction=direction
+            )
+        case ContractionQuestion(force=force, pressure=pressure, direction=direction):
+            return ContractionForForce(
+                condition=condition, force=force, pressure=pressure, direction=direction
+            )
+        case WorkingRangeQuestion(load=load, pressure=pressure, preload=preload):
+            return WorkingRange(condition=condition, load=load, pressure=pressure, preload=preload)
+        case StrokePressureQuestion(load=load, stroke=stroke):
+            return PressureForStroke(condition=condition, load=load, stroke=stroke)
+        case _:
+            assert_never(document)
 
 
 @result_class

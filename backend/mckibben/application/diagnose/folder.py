@@ -21,6 +21,7 @@ from mckibben.application.diagnose.diagnose import prepare
 from mckibben.application.diagnose.result import DiagnosisResult
 from mckibben.application.json_text import answer_json
 from mckibben.application.study.file import journal_of
+from mckibben.application.text_file import check_ending
 from mckibben.documents.located import one_line
 from mckibben.documents.studio import Studio
 from mckibben.physics.catalogue import default_catalogue
@@ -162,10 +163,7 @@ def check_out(out: Path, resume: bool) -> None:
     Raises:
         InputError: an unknown ending, no such folder, nothing to resume.
     """
-    if out.suffix.lower() not in ENDINGS:
-        raise InputError(
-            f"--out {out}: '{out.suffix}' is not a known ending", hint=f"one of {', '.join(ENDINGS)}"
-        )
+    check_ending(out, ENDINGS, named=f"--out {out}")
     if out.is_dir() or not out.parent.is_dir():
         what = "is a folder" if out.is_dir() else f"there is no folder {out.parent}"
         raise InputError(f"--out {out}: {what}", hint="name a file in an existing folder")

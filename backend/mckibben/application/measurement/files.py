@@ -11,6 +11,7 @@ from typing import Any
 from mckibben.application.measurement.experiment import QuestionMeasurement
 from mckibben.application.measurement.together import TestFile, read_together
 from mckibben.documents.experiment import ExperimentInput, stated_experiment
+from mckibben.documents.kinds import refuse_other
 from mckibben.documents.studio import Studio
 from mckibben.measurement.experiment import FIELDS, ExperimentValue
 from mckibben.measurement.measurement import Measurement
@@ -149,6 +150,7 @@ def _entries(name: str) -> list[_Entry]:
     if document is None or _holds_readings(document):
         return [_Entry(name)]
     if not isinstance(document, list) or not document:
+        refuse_other(document, name, ("measurement", "export"))
         raise InputError(f"{name}: is no list of measurements", hint=_LIST_EXAMPLE)
     entries = []
     known = ("file", *_READING, _PREPARE, *ExperimentInput.model_fields)

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from mckibben.application.json_text import answer_json
 from mckibben.application.study.study import StudyQuestion, StudyResult, prepare
+from mckibben.application.text_file import check_ending
 from mckibben.physics.errors import InputError
 from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.studies.journal import Journal
@@ -30,8 +31,7 @@ def check_out(out: Path, resume: bool) -> None:
     Raises:
         InputError: an unknown ending, no such folder, a library that is missing, nothing to resume.
     """
-    if out.suffix.lower() not in ENDINGS:
-        raise InputError(f"{out}: '{out.suffix}' is not a known ending", hint=f"one of {', '.join(ENDINGS)}")
+    check_ending(out, ENDINGS)
     if out.is_dir() or not out.parent.is_dir():
         what = "is a folder" if out.is_dir() else f"there is no folder {out.parent}"
         raise InputError(f"{out}: {what}", hint="name a file in an existing folder")
@@ -118,10 +118,11 @@ def parquet_bytes(result: StudyResult, where: str = "") -> bytes:
         InputError: a library is missing.
     """
     _check_parquet(where)
-    import pandas as pd
+    import pyarrow
+    from pyarrow import parquet
 
     stream = io.BytesIO()
-    pd.DataFrame(result.table).to_parquet(stream, index=False)
+    parquet.write_table(pyarrow.table(dict(result.table)), stream)
     return stream.getvalue()
 
 

@@ -108,7 +108,7 @@ def pictures(
     bare = replace(base, muscle=both.muscle, assumed=both.assumed)
     wanted = effect.kinds if kinds is None else kinds
     found: list[SignaturePicture] = []
-    for kind, make in _TESTS.items():
+    for kind, make in TESTS.items():
         if kind in wanted and (picture := _quasistatic(kind, make(bare, pressure), bare, both)):
             found.append(picture)
     if "transient" in wanted:
@@ -245,7 +245,8 @@ def _grid(
     )
 
 
-_TESTS: Mapping[Kind, Callable[[FitModel, float], ComparableRows]] = {
+#: Kind of a test at given motions -> the rows of an ordinary rig; nothing is measured in them yet.
+TESTS: Mapping[Kind, Callable[[FitModel, float], ComparableRows]] = {
     "isobaric": _loops,
     "isometric": _ramps,
     "isotonic": _loaded,
@@ -254,21 +255,16 @@ _TESTS: Mapping[Kind, Callable[[FitModel, float], ComparableRows]] = {
 }
 
 
-def _driven(bare: FitModel, both: FitModel, pressure: float) -> SignaturePicture:
-    """The reading of a recorder that changes most, against the largest value it shows."""
-    time, without = _record(bare, pressure)
-    _, with_it = _record(both, pressure)
-    changes = {name: with_it[name] - without[name] for name in _READINGS}
-    name = max(changes, key=lambda one: _rms(changes[one]) / (np.max(np.abs(without[one])) or 1.0))
-    quantity, unit = _READINGS[name]
-    curve = SignatureCurve(float("nan"), time, changes[name])
-    return SignaturePicture("transient", quantity, unit, "time", "s", "", "", (curve,), _rms(changes[name]))
+def drive_of(model: FitModel, pressure: float) -> Drive:
+    """A drive that any muscle can move: a proportional valve swings a hanging load.
 
-
-def _record(model: FitModel, pressure: float) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    Args:
+        model: the muscle and all effects of the drive.
+        pressure: of the supply, gauge [Pa].
+    """
     muscle = model.muscle
     volume = float(muscle.nominal_length) * float(muscle.braid_diameter) ** 2 / (0.3 * 0.02**2)
-    drive = Drive(
+    return Drive(
         model=StaticModel(muscle, model.values, catalogue={effect.id: effect for effect in model.effects}),
         valve=Valve(_CONDUCTANCE * volume, _CONDUCTANCE * volume),
         load=Load(mass=_MASS_SHARE * _blocked_force(model, pressure) / GRAVITY),
@@ -283,7 +279,21 @@ def _record(model: FitModel, pressure: float) -> tuple[np.ndarray, dict[str, np.
         temperature=TEMPERATURE,
         wall_heat_transfer=0.0,  # what the wall does to the air is an effect
     )
-    run = simulate(drive, points=_POINTS)
+
+
+def _driven(bare: FitModel, both: FitModel, pressure: float) -> SignaturePicture:
+    """The reading of a recorder that changes most, against the largest value it shows."""
+    time, without = _record(bare, pressure)
+    _, with_it = _record(both, pressure)
+    changes = {name: with_it[name] - without[name] for name in _READINGS}
+    name = max(changes, key=lambda one: _rms(changes[one]) / (np.max(np.abs(without[one])) or 1.0))
+    quantity, unit = _READINGS[name]
+    curve = SignatureCurve(float("nan"), time, changes[name])
+    return SignaturePicture("transient", quantity, unit, "time", "s", "", "", (curve,), _rms(changes[name]))
+
+
+def _record(model: FitModel, pressure: float) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    run = simulate(drive_of(model, pressure), points=_POINTS)
     if len(run.time) < _POINTS:
         raise InputError("the drive of the test does not move with this effect", field="effect")
     return run.time, {name: run.outputs[name] for name in _READINGS}

@@ -9,6 +9,7 @@ import numpy as np
 from mckibben.identification.diagnose.judgement import Judgement, judged, without_suspects
 from mckibben.identification.fit.comparison import Comparison
 from mckibben.identification.fit.fitted_model import FittedModel
+from mckibben.identification.predict.fit_model import each, together
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.residual.noise import noise_of
 
@@ -55,7 +56,8 @@ def _model(comparison: Comparison) -> FittedModel:
     predictor, free = comparison.predictor, comparison.free
     jacobian = np.empty((len(predictor.measured), 0))
     if free:
-        jacobian = predictor.weighted(predictor.linearised(comparison.fit_model, free)[1])
+        slopes = predictor.linearised(comparison.fit_model, each(free))[1]
+        jacobian = predictor.weighted(together(slopes, free))
     return FittedModel(
         comparison.fit_model,
         free,

@@ -16,7 +16,16 @@ from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.least_squares import FitResult
 from mckibben.identification.fit.misfit import Misfit
 from mckibben.identification.predict import Predictor
-from mckibben.identification.predict.fit_model import FitModel, Free, free_numbers, is_start
+from mckibben.identification.predict.fit_model import (
+    FitModel,
+    Free,
+    each,
+    free_numbers,
+    is_start,
+    tied,
+    together,
+    with_values,
+)
 from mckibben.identification.predict.predictor import PredictedChannel, Reversals, StoppedRun
 from mckibben.identification.predict.reading_errors import AbsorbedError
 from mckibben.identification.residual.noise import absorbed_by, allowing_for_errors, noise_of
@@ -118,7 +127,7 @@ class Comparison:
     @property
     def parameters(self) -> ParameterTable:
         """All parameters, as used or fitted."""
-        return parameter_table(self.fit_model, self.fit)
+        return parameter_table(self.fit_model, self.fit, self.free)
 
     @property
     def channels(self) -> dict[str, ChannelMisfit]:
@@ -211,9 +220,10 @@ def _beyond_accuracy(predictor: Predictor, residual: np.ndarray) -> float:
     return float(np.sqrt(np.mean(predictor.weighted(residual) ** 2)))
 
 
-def parameter_table(fit_model: FitModel, fit: FitResult | None) -> ParameterTable:
-    """All parameters of a model, as used or fitted."""
+def parameter_table(fit_model: FitModel, fit: FitResult | None, free: Sequence[Free] = ()) -> ParameterTable:
+    """All parameters of a model, as used or fitted; those that are tied are as sure as what they follow."""
     fitted = {parameter.name: parameter for parameter in fit.parameters} if fit else {}
+    fitted |= {name: fitted[p.name] for p in free for name in p.ties if p.name in fitted}
     table: ParameterTable = {}
     for effect in fit_model.effects:
         for p in effect.parameters:
@@ -225,7 +235,7 @@ def parameter_table(fit_model: FitModel, fit: FitResult | None) -> ParameterTabl
                 at_bound=estimate.at_bound if estimate else False,
                 fitted=estimate is not None,
             )
-    others = [parameter for parameter in fitted.values() if "." not in parameter.name]
+    others = [parameter for name, parameter in fitted.items() if "." not in name]
     if others:
         table["geometry"] = {
             p.name: ParameterValue(p.value, p.stderr, p.unit, p.at_bound, fitted=True) for p in others
@@ -241,6 +251,7 @@ def compared(
     fit: bool = False,
     geometry: Sequence[Free] = (),
     freed: Sequence[str] = (),
+    ties: Mapping[str, str] | None = None,
     noise: float | None = None,
 ) -> Comparison:
     """Compare prepared data with a model.
@@ -255,15 +266,17 @@ def compared(
         geometry: geometry fields to fit as well. Starts of runs are no part of the model: where they are free
             they are fitted without ``fit`` too, alone.
         freed: further constants to fit, as "effect.parameter".
+        ties: fitted constants that always have the value of another fitted one.
         noise: standard deviation of the predicted channel, when it is known.
 
     Raises:
-        InputError: the model has no finite value at some row, or its runs reach less than three rows.
+        InputError: a tied constant is not fitted, the model has no finite value at some row, or
+            its runs reach less than three rows.
     """
     check_finite(predictor, fit_model)
     messages = list(predictor.messages)
     if fit:
-        chosen: _Chosen = partial(_of_fit, geometry=geometry, freed=freed)
+        chosen: _Chosen = partial(_of_fit, geometry=geometry, freed=freed, ties=ties or {})
     else:
         chosen = partial(_of_runs, geometry=geometry)
     choice = chosen(fit_model, predictor)
@@ -326,9 +339,14 @@ _Chosen = Callable[[FitModel, Predictor], tuple[Free, ...]]
 
 
 def _of_fit(
-    fit_model: FitModel, predictor: Predictor, *, geometry: Sequence[Free], freed: Sequence[str]
+    fit_model: FitModel,
+    predictor: Predictor,
+    *,
+    geometry: Sequence[Free],
+    freed: Sequence[str],
+    ties: Mapping[str, str],
 ) -> tuple[Free, ...]:
-    return free_numbers(fit_model, geometry, freed, load=predictor.unknown_load)
+    return tied(free_numbers(fit_model, geometry, freed, load=predictor.unknown_load), ties)
 
 
 def _of_runs(fit_model: FitModel, predictor: Predictor, *, geometry: Sequence[Free]) -> tuple[Free, ...]:
@@ -352,7 +370,7 @@ def _fitted(
         usual = {p.name for p in free_numbers(fit_model, (), (), load=part.unknown_load)}
         first = [p for p in choice if p.name in usual]
         result = fit_of(part.beginning(fit_model), fit_model, choice, first=first)
-        fit_model = fit_model.with_numbers([p.name for p in choice], result.numbers)
+        fit_model = with_values(fit_model, choice, result.numbers)
         ended = whole.reached(fit_model)
         if ended.rows_used == part.rows_used:
             break
@@ -427,7 +445,8 @@ def holdout_rmse(predictor: Predictor, fit_model: FitModel, choice: Sequence[Fre
     """Error over whole groups that are left out of the fit; None for a single group."""
     if len(np.unique(predictor.folds[0])) < 2:
         return None
-    predicted, jacobian = predictor.linearised(fit_model, choice)
+    predicted, slopes = predictor.linearised(fit_model, each(choice))
+    jacobian = together(slopes, choice)
     ended = tuple(replace(p, start=fit_model.number(p.name)) for p in choice)
     misfit = predictor.weighted(predictor.measured - predicted)
     fitted_model = FittedModel(

@@ -9,7 +9,7 @@ import numpy as np
 
 from mckibben.identification.fit.effort import FitEffort
 from mckibben.identification.fit.least_squares import FitResult, fit_report, least_squares_fit
-from mckibben.identification.predict.fit_model import FitModel, Free
+from mckibben.identification.predict.fit_model import FitModel, Free, each, together, with_values
 from mckibben.identification.predict.predictor import Predictor
 
 _LOST = 1e3  # residual of a row whose prediction is not finite, over the largest value
@@ -48,7 +48,7 @@ class Misfit:
 
     def __init__(self, predictor: Predictor, fit_model: FitModel, free: Sequence[Free]) -> None:
         self._predictor, self._fit_model, self._free = predictor, fit_model, free
-        self._names = [parameter.name for parameter in free]
+        self._each = each(free)
         self._at: bytes | None = None
         self._misfit = np.empty(0)
         self._predicted: np.ndarray | None = None
@@ -56,7 +56,7 @@ class Misfit:
 
     def fit_model(self, numbers: np.ndarray) -> FitModel:
         """The model with these values of the free parameters."""
-        return self._fit_model.with_numbers(self._names, numbers)
+        return with_values(self._fit_model, self._free, numbers)
 
     def value(self, numbers: np.ndarray) -> np.ndarray:
         """Misfit, shape (values,)."""
@@ -65,10 +65,10 @@ class Misfit:
             predictor, fit_model = self._predictor, self.fit_model(numbers)
             self._predicted, self._slopes = None, None
             with np.errstate(all="ignore"):
-                if predictor.simulated or predictor.follows(fit_model, self._free):
-                    predicted = self._predicted = predictor.within_fit(fit_model, self._free)
+                if predictor.simulated or predictor.follows(fit_model, self._each):
+                    predicted = self._predicted = predictor.within_fit(fit_model, self._each)
                 else:
-                    predicted, slopes = predictor.linearised(fit_model, self._free)
+                    predicted, slopes = predictor.linearised(fit_model, self._each)
                     slopes = np.where(np.isfinite(predicted)[:, None], slopes, 0.0)
                     self._slopes = self._weighted(slopes)
                 residual = predictor.measured - predicted
@@ -79,11 +79,12 @@ class Misfit:
         """Derivatives of the misfit, shape (values, free)."""
         self.value(numbers)
         if self._slopes is None:
-            slopes = self._predictor.slopes(self.fit_model(numbers), self._free, self._predicted)
+            slopes = self._predictor.slopes(self.fit_model(numbers), self._each, self._predicted)
             self._slopes = self._weighted(slopes)
         return self._slopes
 
     def _weighted(self, slopes: np.ndarray) -> np.ndarray:
+        slopes = together(slopes, self._free)
         finite = np.all(np.isfinite(slopes), axis=1, keepdims=True)
         return self._predictor.weighted(np.where(finite, slopes, 0.0))
 
@@ -130,7 +131,7 @@ class Misfit:
 
     def _after(self, predictor: Predictor, free: Sequence[Free], effort: FitEffort) -> np.ndarray:
         self._predictor, self._at = predictor, None
-        dear = predictor.follows(self._fit_model, free)
+        dear = predictor.follows(self._fit_model, self._each)
         return least_squares_fit(
             self.value,
             self.derivatives,

@@ -219,7 +219,8 @@ class Free:
 
     ``natural``: its bounds are those of its definition, such as 0 and 1 of a share. ``measured``: the range
     beyond which its value is implausible, where the bounds are wider. ``fixes``: constants of effects that
-    act exactly as it does, and so keep their values beside it.
+    act exactly as it does, and so keep their values beside it. ``ties``: constants that always have its
+    value.
     """
 
     name: str
@@ -232,8 +233,74 @@ class Free:
     natural: bool = False
     measured: tuple[float, float] | None = None
     fixes: frozenset[str] = frozenset()
+    ties: tuple[str, ...] = ()
 
     @property
     def typical(self) -> float:
         """A change that matters: the usual one, or a hundredth of the range between the bounds."""
         return self.usual or 0.01 * (self.upper - self.lower)
+
+
+def tied(free: Sequence[Free], ties: Mapping[str, str]) -> tuple[Free, ...]:
+    """The free parameters where some constants always have the value of another one.
+
+    Args:
+        free: the parameters.
+        ties: a constant -> the parameter that it follows; both as "effect.parameter".
+
+    Raises:
+        InputError: a parameter that is not free, or another unit.
+    """
+    units = {p.name: p.unit for p in free}
+    for follower, leader in ties.items():
+        for name in (follower, leader):
+            if name not in units:
+                raise InputError(
+                    f"{name} is not fitted, so nothing can be tied to it", field="ties",
+                    hint=did_you_mean(name, units) if units else "free it, and ask for a fit",
+                )  # fmt: skip
+        if leader in ties:
+            raise InputError(f"{leader} is itself tied to {ties[leader]}", field="ties", hint=ties[leader])
+        if units[follower] != units[leader]:
+            raise InputError(
+                f"{follower} is in {units[follower]} and {leader} in {units[leader]}", field="ties",
+                hint="tie constants of one unit",
+            )  # fmt: skip
+    by_name = {p.name: p for p in free}
+    return tuple(_leading(p, [by_name[f] for f, leader in ties.items() if leader == p.name])
+                 for p in free if p.name not in ties)  # fmt: skip
+
+
+def _leading(p: Free, followers: Sequence[Free]) -> Free:
+    """The parameter with its followers, within the bounds of all."""
+    if not followers:
+        return p
+    lower, upper = max(f.lower for f in (p, *followers)), min(f.upper for f in (p, *followers))
+    return replace(
+        p, ties=tuple(f.name for f in followers), lower=lower, upper=upper,
+        start=min(max(p.start, lower), upper),
+    )  # fmt: skip
+
+
+def each(free: Sequence[Free]) -> tuple[Free, ...]:
+    """Every parameter and every constant that follows one, as parameters of their own."""
+    return tuple(replace(p, name=name, ties=()) for p in free for name in (p.name, *p.ties))
+
+
+def places(free: Sequence[Free]) -> list[int]:
+    """Of `each`, the number of the parameter that gives its value."""
+    return [place for place, p in enumerate(free) for _ in (p.name, *p.ties)]
+
+
+def with_values(fit_model: FitModel, free: Sequence[Free], numbers: Sequence[float] | np.ndarray) -> FitModel:
+    """The model with these values of free parameters, and of what is tied to them."""
+    names = [p.name for p in each(free)]
+    return fit_model.with_numbers(names, [float(numbers[place]) for place in places(free)])
+
+
+def together(slopes: np.ndarray, free: Sequence[Free]) -> np.ndarray:
+    """Derivatives by free parameters, shape (values, free), of those by `each` of them."""
+    found = np.zeros((len(slopes), len(free)))
+    for column, place in enumerate(places(free)):
+        found[:, place] += slopes[:, column]
+    return found

@@ -10,7 +10,7 @@ from pydantic import Field
 
 from mckibben.application.diagnose.signatures import AtlasQuestion, Signatures, signatures
 from mckibben.application.json_text import to_json
-from mckibben.documents.muscle import MuscleInput
+from mckibben.documents.muscle import Muscle
 from mckibben.documents.quantity import PositivePressure
 from mckibben.documents.start_model import stated_muscle
 from mckibben.documents.strict import Strict
@@ -160,7 +160,7 @@ def list_effects(request: Request) -> Response:
 class SignatureRequest(Strict):
     """An effect on a muscle."""
 
-    muscle: MuscleInput = Field(description="The muscle.")
+    muscle: Muscle = Field(description="The muscle.")
     effect: str = Field(description="Id of the effect.")
     values: dict[str, float] = Field(
         default_factory=dict, description="Its parameters in SI; missing ones take their usual size."

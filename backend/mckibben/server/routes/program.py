@@ -49,7 +49,7 @@ class Health(Strict):
     """The server is up."""
 
     status: Literal["ok"] = Field(description="The word 'ok'.")
-    version: str = Field(description="Version of mckibben.", examples=["0.1.0"])
+    version: str = Field(description="Version of mckibben.", examples=["0.2.0"])
     plotly: str = Field(description="Version of the plotly bundle, for its link's ``?v=``.")
     workers: int = Field(
         description="Processes for diagnoses, sizings and reports; 0 = threads of the server."

@@ -2,34 +2,32 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated
 
 from pydantic import Field
 
-from mckibben.documents.muscle import EffectsInput, MuscleInput
+from mckibben.documents import inverse
+from mckibben.documents.inverse import Direction
+from mckibben.documents.muscle import EffectsInput, Muscle
 from mckibben.documents.quantity import (
     Contraction,
     Length,
     Load,
-    PositivePressure,
     Pressure,
     Temperature,
     Volume,
 )
+from mckibben.documents.shorthand import LIST_TEXT
 from mckibben.documents.strict import Strict
 
-Direction = Annotated[
-    Literal[-1, 0, 1],
-    Field(description="Sign of dL/dt, for friction: -1 filling (shortening), 1 venting, 0 none."),
-]
 _DEFAULT_PRESSURES = [1e5, 2e5, 3e5, 4e5, 5e5, 6e5]
 
 
 class CurvesOptions(Strict):
     """Pressures, range and conditions of the curves."""
 
-    pressures: list[Pressure] = Field(
-        default=_DEFAULT_PRESSURES, min_length=1, max_length=12, description="Gauge pressures of the curves."
+    pressures: Annotated[list[Pressure], Field(min_length=1, max_length=12), LIST_TEXT] = Field(
+        default=_DEFAULT_PRESSURES, description="Gauge pressures of the curves."
     )
     points: int = Field(200, ge=2, le=400, description="Points along the length.")
     direction: Direction = 0
@@ -53,57 +51,36 @@ class CurvesOptions(Strict):
 class CurvesRequest(CurvesOptions):
     """A muscle, and the pressures and range of its curves."""
 
-    muscle: MuscleInput = Field(description="The muscle.")
+    muscle: Muscle = Field(description="The muscle.")
     effects: EffectsInput | None = Field(
         None, description="The effects of its model; null: those of the preset."
     )
 
 
-class _Question(Strict):
-    muscle: MuscleInput = Field(description="The muscle.")
+class _OfMuscle(Strict):
+    muscle: Muscle = Field(description="The muscle.")
     effects: EffectsInput | None = Field(
         None, description="The effects of its model; null: those of the preset."
     )
-    temperature: Temperature = Field(293.15, description="Temperature of the muscle.")
 
 
-class PressureQuestion(_Question):
+class PressureQuestion(_OfMuscle, inverse.PressureQuestion):
     """The pressure for a force at a length or contraction."""
 
-    question: Literal["pressure"] = Field(description="Asks for a pressure.")
-    force: Load = Field(description="The required force.")
-    length: Length | None = Field(None, description="The length; or give the contraction.")
-    contraction: Contraction | None = Field(None, description="The contraction; or give the length.")
-    direction: Direction = 0
 
-
-class ContractionQuestion(_Question):
+class ContractionQuestion(_OfMuscle, inverse.ContractionQuestion):
     """The contraction at a force and pressure."""
 
-    question: Literal["contraction"] = Field(description="Asks for a contraction.")
-    force: Load = Field(description="The force of the muscle.")
-    pressure: Pressure = Field(description="Gauge pressure in the muscle.")
-    direction: Direction = 0
 
-
-class WorkingRangeQuestion(_Question):
+class WorkingRangeQuestion(_OfMuscle, inverse.WorkingRangeQuestion):
     """The stroke from the preload without pressure to the load at the highest pressure.
 
     The start is taken while venting and the end while filling.
     """
 
-    question: Literal["working_range"] = Field(description="Asks for the stroke between two loads.")
-    load: Load = Field(description="Load at the end of the stroke.")
-    pressure: PositivePressure = Field(description="The highest gauge pressure.")
-    preload: Load = Field(0.0, description="Load at the start of the stroke.")
 
-
-class StrokePressureQuestion(_Question):
+class StrokePressureQuestion(_OfMuscle, inverse.StrokePressureQuestion):
     """The pressure that lifts a load by a stroke, while filling."""
-
-    question: Literal["stroke_pressure"] = Field(description="Asks for the pressure of a stroke.")
-    load: Load = Field(description="The load to lift.")
-    stroke: Length = Field(description="From the rest length.")
 
 
 InverseRequest = Annotated[

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from mckibben.documents.drive import DriveOrId
-from mckibben.documents.muscle import EffectsInput, MuscleInput
+from mckibben.documents.muscle import EffectsInput, Muscle
 from mckibben.documents.saved_model import SavedModel
 from mckibben.documents.strict import Strict
 
@@ -24,7 +24,7 @@ class ExportRequest(Strict):
             examples=["c"],
         ),
     ]
-    muscle: MuscleInput | None = Field(None, description="A muscle, with its effects.")
+    muscle: Muscle | None = Field(None, description="A muscle, with its effects.")
     effects: EffectsInput | None = Field(
         None, description="The effects of the muscle; null: those of the preset."
     )

@@ -32,7 +32,7 @@ from pydantic import Field, StringConstraints
 from mckibben.application.compare.residual_map import Over
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.experiment import ExperimentInput
-from mckibben.documents.muscle import EffectsInput, MuscleInput
+from mckibben.documents.muscle import EffectsInput, Muscle
 from mckibben.documents.strict import Strict
 from mckibben.measurement.preparation import LONGEST, MOST
 from mckibben.server.schemas.common import streamed
@@ -77,7 +77,7 @@ StatedNoise = float | Annotated[str, Field(min_length=1, max_length=100)]
 class ModelRequest(Strict):
     """A model and the measurements it is compared with."""
 
-    muscle: MuscleInput | None = Field(None, description="Null: the drive's.")
+    muscle: Muscle | None = Field(None, description="Null: the drive's.")
     effects: EffectsInput | None = Field(
         None, description="The effects of the model; null: the drive's, or those of the muscle preset."
     )
@@ -156,6 +156,11 @@ class ComparisonRequest(ModelRequest):
     judge: bool = Field(
         True, description="Also whether what is left is noise, in 'verdict'; takes longer than the rest."
     )
+    ties: dict[ParameterPath, ParameterPath] = Field(
+        default={},
+        max_length=64,
+        description="Fitted constant -> the fitted constant whose value it always has, as effect.parameter.",
+    )
 
 
 class DiagnosisRequest(ModelRequest):
@@ -175,7 +180,7 @@ class HistoryStep(Strict):
     freed: list[ParameterPath] = Field(
         default=[], max_length=64, description="Additional parameters that were fitted, as effect.parameter."
     )
-    muscle: MuscleInput | None = Field(None, description="Null: that of the request.")
+    muscle: Muscle | None = Field(None, description="Null: that of the request.")
 
 
 class ReportRequest(ComparisonRequest):

@@ -152,7 +152,31 @@ export const isDrive = (raw) => isObject(raw) && isPlain(raw);
 /** Whether this is a drive document, as opposed to a document of this page.
  * @param {unknown} raw @returns {raw is Drive} */
 export const isDriveDocument = (raw) =>
-  isObject(raw) && !("design" in raw) && isObject(raw.muscle) && isDrive(raw);
+  isObject(raw) && !("design" in raw) && (isObject(raw.muscle) || typeof raw.muscle === "string") &&
+  isDrive(raw);
+
+/** @param {string} text */
+const named = (text) => ({ preset: text });
+/** What a text stands for in a document, as `documents/shorthand.py` has it.
+ * @type {Record<string, (text: string) => object>} */
+const SHORT = {
+  muscle: (text) => {
+    const [preset, length] = text.split(":").map((part) => part.trim());
+    return length ? { preset, nominal_length: length } : { preset };
+  },
+  valve: named,
+  tube: named,
+  supply: (text) => ({ pressure: text }),
+  load: (text) => (/(N|lbf)$/.test(text.trim()) ? { force: text } : { mass: text }),
+};
+
+/** The document with its shorthands written out. @param {Drive} document @returns {Drive} */
+const longForm = (document) =>
+  Object.fromEntries(
+    Object.entries(document).map(([key, part]) =>
+      typeof part === "string" && key in SHORT ? [key, SHORT[key](part)] : [key, part]
+    ),
+  );
 
 const UPRIGHT = Math.PI / 2, TILTED = Math.PI / 6, LEVER = 2, PULLEY = 0.03;
 /** The inclination of the load in each arrangement, unless the document gives it.
@@ -230,7 +254,7 @@ export function muscleParts({ preset = null, rhombus, ...geometry }) {
  * @returns {{muscle: import("../types.js").Muscle, effects: Record<string, Record<string, number>> | null,
  *   transient: Partial<Transient>}} @throws {Error} */
 export function partsOfDrive(document, scenario) {
-  const { schema: _schema, muscle, effects, ...rest } = inSi(document);
+  const { schema: _schema, kind: _kind, muscle, effects, ...rest } = inSi(longForm(document));
   if (!isObject(muscle)) throw new Error("“muscle” is missing");
   if (isObject(rest.load)) rest.load = withArrangement(rest.load);
   const start = defaultDrive();

@@ -1,7 +1,6 @@
 """Seal drag: the sliding end fitting takes part of the pull."""
 
-from mckibben.physics.effect import Effect, Example, Signature, Twin
-from mckibben.physics.parameter import Parameter, Source
+from mckibben.effects import Effect, Example, Parameter, Signature, Source, Twin
 
 
 def tension(*, drag):
@@ -26,7 +25,10 @@ EFFECT = Effect(
     slots={"tension": tension},
     kinds=frozenset({"isobaric", "isometric", "isotonic", "static", "transient"}),
     signature=Signature("the same force at every pressure and length", "even", 0.0, (), "conservative"),
-    confused_with=(Twin("force_offset", "the load cell without the muscle"),),
+    confused_with=(
+        Twin("force_offset", "the load cell without the muscle"),
+        Twin("prestress", "the muscle without its seal, at the same length and pressure"),
+    ),
     references=(ESTIMATE,),
     examples=(
         Example(

@@ -35,10 +35,15 @@ MUSCLE_SLOTS = frozenset(  # what `Model.evaluate` asks for
 Values = dict[str, dict[str, float]]
 
 
+def an_elastomer() -> Effect:
+    """The first effect that is one."""
+    return next(effect for effect in default_catalogue().values() if "elastomer" in effect.slots)
+
+
 def companions(effect: Effect) -> tuple[Effect, ...]:
     """What has to be there for the effect to act on: an elastomer, when it only multiplies one."""
     only_factor = set(effect.slots) - {"rates"} == {"elastomer_factor"}
-    return (default_catalogue()["bladder_elasticity"],) if only_factor else ()
+    return (an_elastomer(),) if only_factor else ()
 
 
 def predict_force(effects: Sequence[Effect], values: Values, **state: object) -> np.ndarray:
@@ -58,10 +63,12 @@ def acts_on_muscle(effect: Effect) -> bool:
 
 
 def state_symbols(effects: Iterable[Effect]) -> list[str]:
+    """Names of all states, as effect.state."""
     return [f"{effect.id}.{state.name}" for effect in effects for state in effect.states]
 
 
 def defaults(effects: Iterable[Effect]) -> Values:
+    """Effect id -> its defaults."""
     return {effect.id: effect.defaults for effect in effects}
 
 
@@ -74,6 +81,7 @@ def contribution(effect: Effect, **state: object) -> np.ndarray:
 
 
 def grid(*, lengths: np.ndarray = LENGTHS, pressures: np.ndarray = PRESSURES, sign: float) -> dict:
+    """A state over lengths and pressures; the sign is that of the motion."""
     length, pressure = np.meshgrid(lengths, pressures)
     return {"length": length, "pressure": pressure, "velocity": sign * SPEED, "direction": sign}
 
@@ -101,12 +109,14 @@ def compiled(effects: tuple[Effect, ...]) -> tuple[list[str], Callable[[np.ndarr
 
 
 def numeric(effects: Sequence[Effect], point: Mapping[str, float]) -> State:
+    """The output of the model at a point, in numbers."""
     values = {e.id: {p.name: point[f"{e.id}.{p.name}"] for p in (*e.parameters, *e.states)} for e in effects}
     muscle = Muscle(**{name: point[name] for name in GEOMETRY})
     return Model(effects).evaluate(muscle=muscle, values=values, **{name: point[name] for name in INPUTS})
 
 
 def random_points(effects: Sequence[Effect], count: int) -> list[dict[str, float]]:
+    """Points of the working range, always the same: all arguments of `compiled`."""
     random = np.random.default_rng(20)
     points = []
     for _ in range(count):

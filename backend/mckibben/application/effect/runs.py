@@ -1,7 +1,7 @@
 """Checks of what effects do over time: the claims that need a run from rest, and those of the drive.
 
 The run drives the effect's own states by a given length and pressure over time. "Contribution" is the tension
-with the effect minus without, as in contract.py.
+with the effect minus without, as in claims.py.
 """
 
 from __future__ import annotations
@@ -14,15 +14,16 @@ from itertools import product
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from mckibben.physics.effect import Effect
-from mckibben.physics.model import Model, State
-from tests.physics.contract_states import (
+from mckibben.application.effect.broken import claim
+from mckibben.application.effect.states import (
     MUSCLE,
     SPEED,
     companions,
     defaults,
     grid,
 )
+from mckibben.physics.effect import Effect
+from mckibben.physics.model import Model, State
 
 
 def check_nothing_without_history(effect: Effect) -> None:
@@ -33,7 +34,7 @@ def check_nothing_without_history(effect: Effect) -> None:
         got = Model((*others, effect)).evaluate(muscle=MUSCLE, values=defaults((*others, effect)), **state)
         want = Model(others).evaluate(muscle=MUSCLE, values=defaults(others), **state)
         for name in State._fields:
-            assert np.array_equal(getattr(got, name), getattr(want, name)), f"{name} differs"
+            claim(np.array_equal(getattr(got, name), getattr(want, name)), f"{name} differs")
 
 
 @dataclass(frozen=True)
@@ -87,7 +88,7 @@ def run(
         atol=np.array([0.1 * tolerance * state.scale for state in effect.states]),
         max_step=(time[-1] - time[0]) / 300.0,
     )
-    assert solution.success, solution.message
+    claim(solution.success, solution.message)
     return dict(zip(names, solution.y, strict=True))
 
 
@@ -139,9 +140,9 @@ def check_mirrored_motion(effect: Effect) -> None:
     for swing, mirrored in ((STRETCHED, Swing(stretch=-0.08)), (PRESSED, Swing(swing=-2e5))):
         pairs.append((driven(effect, swing)[0], driven(effect, mirrored)[0]))
     scale = max(np.abs(force).max() for force, _ in pairs)
-    assert scale > _LEAST
+    claim(scale > _LEAST)
     even, odd = (max(np.abs(b - side * a).max() for a, b in pairs) <= 1e-5 * scale for side in (1.0, -1.0))
-    assert (even, odd) == (effect.signature.direction == "even", effect.signature.direction == "odd")
+    claim((even, odd) == (effect.signature.direction == "even", effect.signature.direction == "odd"))
 
 
 def check_power_over_run(effect: Effect) -> None:
@@ -149,11 +150,11 @@ def check_power_over_run(effect: Effect) -> None:
     pressures = (1e5, 2e5, 4e5)
     sizes = [np.abs(driven(effect, Swing(stretch=0.08, mean_pressure=p))[0]).max() for p in pressures]
     if max(sizes) <= _LEAST:
-        assert effect.signature.pressure_power is None
+        claim(effect.signature.pressure_power is None)
         return
     powers = np.diff(np.log(sizes)) / np.diff(np.log(pressures))
     if effect.signature.pressure_power is None:
-        assert np.ptp(powers) > 1e-3
+        claim(np.ptp(powers) > 1e-3)
     else:
         np.testing.assert_allclose(powers, effect.signature.pressure_power, atol=1e-6)
 
@@ -170,9 +171,9 @@ def check_shows_in_runs(effect: Effect) -> None:
     }
     shown["transient"] = max(shown.values())
     for kind, size in shown.items():
-        assert (kind in effect.kinds) == (size > _LEAST), f"{kind}: {size} N"
-    assert ("no_motion" in effect.signature.zero_at) == (shown["isometric"] <= _LEAST)
-    assert set(effect.signature.zero_at) <= {"no_motion"}, "others are not checked for effects with states"
+        claim((kind in effect.kinds) == (size > _LEAST), f"{kind}: {size} N")
+    claim(("no_motion" in effect.signature.zero_at) == (shown["isometric"] <= _LEAST))
+    claim(set(effect.signature.zero_at) <= {"no_motion"}, "others are not checked for effects with states")
 
 
 def check_work_of_run(effect: Effect) -> None:
@@ -181,7 +182,7 @@ def check_work_of_run(effect: Effect) -> None:
     Reading: it acts in the force sensor alone.
     """
     if effect.signature.energy == "reading":
-        assert set(effect.slots) == {"force_sensor", "rates"}
+        claim(set(effect.slots) == {"force_sensor", "rates"})
         return
     works = []
     for stretch, period, swing, phase in product((1e-3, 0.02, 0.1), (0.5, 20.0), (0.0, 2e5), (0.0, 2.0)):
@@ -194,28 +195,28 @@ def check_work_of_run(effect: Effect) -> None:
         cycles = [part.sum() for part in np.array_split(work[1:], path.cycles)]
         works += [np.cumsum(work).min() / max(scale, 1e-12), *(cycle / max(scale, 1e-12) for cycle in cycles)]
     if effect.signature.energy == "dissipative":
-        assert min(works) >= -1e-3
-        assert max(works) > 1e-3
+        claim(min(works) >= -1e-3)
+        claim(max(works) > 1e-3)
     else:
-        assert effect.signature.energy == "lumped"
-        assert min(works) < -1e-2
+        claim(effect.signature.energy == "lumped")
+        claim(min(works) < -1e-2)
 
 
 def check_drive_claims(effect: Effect) -> None:
     """No claim on the force at a length and pressure; seen over time, and by slow tests only as a reading."""
     signature = effect.signature
-    assert (signature.direction, signature.pressure_power, signature.zero_at) == (None, None, ())
+    claim((signature.direction, signature.pressure_power, signature.zero_at) == (None, None, ()))
     slots = set(effect.slots)
     channels = {"force_reading", "pressure_reading", "stroke_reading", "skew"} & slots
     slow = {"isobaric", "isometric", "isotonic"} if channels else {"isotonic"} if "guide" in slots else set()
-    assert effect.kinds == {"transient"} | slow
-    assert (signature.energy == "reading") == bool(channels)
+    claim(effect.kinds == {"transient"} | slow)
+    claim((signature.energy == "reading") == bool(channels))
     if "guide" in slots:
         for speed in (-1.0, -SPEED, SPEED, 1.0):
             context = {"stroke": 0.01, "speed": speed, "direction": math.copysign(1.0, speed), "load": 200.0}
             values = effect.defaults | _slid(effect, context, way=0.1)
-            assert effect.call("guide", context, values) * speed > 0.0
-        assert signature.energy == "dissipative"
+            claim(effect.call("guide", context, values) * speed > 0.0)
+        claim(signature.energy == "dissipative")
 
 
 def _slid(effect: Effect, context: dict[str, float], *, way: float) -> dict[str, float]:

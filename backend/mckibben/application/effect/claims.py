@@ -1,23 +1,22 @@
 """The claims an effect makes, as checks that evaluate them; `checks_of` says which an effect is held to.
 
-"Contribution" is the force as measured, with the effect minus without; muscle and states: contract_states.py.
+"Contribution" is the force as measured, with the effect minus without; muscle and states: states.py.
 """
 
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Sequence
 from itertools import product
 
 import numpy as np
+from latex2mathml.converter import convert
 from scipy.optimize import brentq
 
-from mckibben.physics import ideal
-from mckibben.physics.catalogue import default_catalogue
-from mckibben.physics.effect import KINDS, Effect
-from mckibben.physics.model import ROOM_TEMPERATURE, Model, State
-from tests.physics import contract_dynamic, contract_slots
-from tests.physics.contract_states import (
+from mckibben.application.effect import runs, slots
+from mckibben.application.effect.broken import claim
+from mckibben.application.effect.states import (
     FORCE_SCALE,
     LENGTHS,
     MUSCLE,
@@ -26,6 +25,7 @@ from tests.physics.contract_states import (
     SPEED,
     WARM,
     acts_on_muscle,
+    an_elastomer,
     closed_path,
     companions,
     compiled,
@@ -36,12 +36,17 @@ from tests.physics.contract_states import (
     predict_force,
     random_points,
 )
+from mckibben.physics import ideal
+from mckibben.physics.catalogue import default_catalogue
+from mckibben.physics.effect import KINDS, Effect
+from mckibben.physics.model import ROOM_TEMPERATURE, Model, State
+from mckibben.physics.units import si
 
 
 def check_off_is_ideal(effect: Effect) -> None:
     """At its off values the effect leaves every output as it is, to the last bit, whatever its states are."""
-    assert any(parameter.off is not None for parameter in effect.parameters)
-    for others in ((), (default_catalogue()["bladder_elasticity"],)):
+    claim(any(parameter.off is not None for parameter in effect.parameters))
+    for others in ((), (an_elastomer(),)):
         if effect in others:
             continue
         for sign in (-1.0, 0.0, 1.0):
@@ -51,7 +56,7 @@ def check_off_is_ideal(effect: Effect) -> None:
             got = Model((*others, effect)).evaluate(muscle=MUSCLE, values=off, **state)
             want = Model(others).evaluate(muscle=MUSCLE, values=defaults(others), **state)
             for name in State._fields:
-                assert np.array_equal(getattr(got, name), getattr(want, name)), f"{name} differs"
+                claim(np.array_equal(getattr(got, name), getattr(want, name)), f"{name} differs")
     if "compliance" in effect.slots:
         state = grid(sign=0.0)
         off = predict_force((effect,), {effect.id: effect.off}, **state)
@@ -80,11 +85,11 @@ def check_finite_at_all_bounds(effect: Effect) -> None:
     results = function(rows)
     labels = [*State._fields, *(f"dF/d {name}" for name in names)]
     bad = [label for label, column in zip(labels, results.T, strict=True) if not np.isfinite(column).all()]
-    assert not bad, f"not finite: {', '.join(bad)}"
+    claim(not bad, f"not finite: {', '.join(bad)}")
     if "compliance" in effect.slots:
         for corner in corners:
             values = {effect.id: dict(zip(effect.defaults, corner, strict=True))}
-            assert np.isfinite(predict_force((effect,), values, **grid(sign=0.0))).all()
+            claim(np.isfinite(predict_force((effect,), values, **grid(sign=0.0))).all())
 
 
 def memories_of(states: int) -> set[tuple[float, ...]]:
@@ -112,7 +117,7 @@ def check_numbers_and_symbols_agree(effect: Effect) -> None:
         for name, got in zip(State._fields, result, strict=False):
             scale = FORCE_SCALE if name in ("force", "tension") else abs(getattr(here, name))
             want = float(getattr(here, name))
-            assert abs(got - want) <= 1e-12 * max(scale, abs(want)), f"{name}: {got} on symbols, {want}"
+            claim(abs(got - want) <= 1e-12 * max(scale, abs(want)), f"{name}: {got} on symbols, {want}")
         for name, exact in zip(names, result[len(State._fields) :], strict=True):
             if name == "direction":
                 continue  # a sign, not a quantity to differentiate by
@@ -120,8 +125,9 @@ def check_numbers_and_symbols_agree(effect: Effect) -> None:
             up, down = ({**point, name: point[name] + sign * step} for sign in (1.0, -1.0))
             slope = (numeric(effects, up).force - numeric(effects, down).force) / (2.0 * step)
             # Forces of 1 kN carry a rounding of 1e-12 N, which a difference divides by its step.
-            assert abs(exact - slope) <= 1e-6 * abs(slope) + 1e-14 * FORCE_SCALE / step, (
-                f"dF/d {name}: {exact} symbolic, {slope} by differences at {point}"
+            claim(
+                abs(exact - slope) <= 1e-6 * abs(slope) + 1e-14 * FORCE_SCALE / step,
+                f"dF/d {name}: {exact} symbolic, {slope} by differences at {point}",
             )
 
 
@@ -148,7 +154,7 @@ def check_direction(effect: Effect) -> None:
     """Even: the same whichever way the muscle moves. Odd: the opposite. Undeclared: neither."""
     back, forth = (contribution(effect, **grid(sign=sign)) for sign in (-1.0, 1.0))
     even, odd = (np.abs(forth - side).max() <= 1e-12 * FORCE_SCALE for side in (back, -back))
-    assert (even, odd) == (effect.signature.direction == "even", effect.signature.direction == "odd")
+    claim((even, odd) == (effect.signature.direction == "even", effect.signature.direction == "odd"))
 
 
 def check_pressure_power(effect: Effect) -> None:
@@ -163,7 +169,7 @@ def check_pressure_power(effect: Effect) -> None:
         )
         return
     shown = np.abs(got[:, np.argmax(np.abs(got[-1]))])
-    assert shown.min() == 0.0 or np.ptp(np.diff(np.log(shown)) / np.diff(np.log(pressures))) > 1e-3
+    claim(shown.min() == 0.0 or np.ptp(np.diff(np.log(shown)) / np.diff(np.log(pressures))) > 1e-3)
 
 
 _AT_FORCELESS_LENGTH = {"length": MUSCLE.braid.thread_length / math.sqrt(3.0), "pressure": PRESSURES}
@@ -187,7 +193,7 @@ def check_zero_states(effect: Effect) -> None:
             for sign in (0.0,) if name == "no_motion" else (-1.0, 0.0, 1.0):
                 motion = {"velocity": sign * SPEED, "direction": sign}
                 left = np.abs(contribution(effect, **{**state, **motion})).max()
-                assert left <= 1e-12 * FORCE_SCALE, f"{left} N at {name}"
+                claim(left <= 1e-12 * FORCE_SCALE, f"{left} N at {name}")
 
 
 def _isotonic_change(effect: Effect, *, contraction: float, pressure: float, sign: float) -> float:
@@ -244,9 +250,9 @@ def check_kinds(effect: Effect) -> None:
     shown = _shows_in(effect)
     for kind in KINDS:
         if kind in effect.kinds:
-            assert shown[kind] > 1e-9, f"names {kind}, where nothing of it shows"
+            claim(shown[kind] > 1e-9, f"names {kind}, where nothing of it shows")
         else:
-            assert shown[kind] == 0.0, f"does not name {kind}, where {shown[kind]:.1e} of scale shows"
+            claim(shown[kind] == 0.0, f"does not name {kind}, where {shown[kind]:.1e} of scale shows")
 
 
 def check_energy(effect: Effect) -> None:
@@ -265,19 +271,51 @@ def check_energy(effect: Effect) -> None:
             work = np.sum(got.tension * length_rate - got.volume * pressure_rate) * PHASE_STEP
             scale = np.sum(np.abs(got.tension * length_rate)) * PHASE_STEP
             closes = abs(work) <= 1e-6 * scale
-            assert closes == (effect.signature.energy == "conservative"), f"{work / scale:.1e} at {own}"
+            claim(closes == (effect.signature.energy == "conservative"), f"{work / scale:.1e} at {own}")
     elif effect.signature.energy == "dissipative":
         for sign in (-1.0, 1.0):
-            assert (sign * contribution(effect, **grid(sign=sign))).min() >= 0.0
-        assert np.sum(contribution(effect, **state) * length_rate) * PHASE_STEP > 0.0
+            claim((sign * contribution(effect, **grid(sign=sign))).min() >= 0.0)
+        claim(np.sum(contribution(effect, **state) * length_rate) * PHASE_STEP > 0.0)
     else:
         got = Model([effect]).evaluate(muscle=MUSCLE, values=defaults([effect]), **grid(sign=1.0))
         at_true = {**grid(sign=1.0), "length": got.length}
         if "pressure_sensor" not in effect.slots:
-            assert np.array_equal(got.tension, Model().evaluate(muscle=MUSCLE, values={}, **at_true).tension)
+            claim(np.array_equal(got.tension, Model().evaluate(muscle=MUSCLE, values={}, **at_true).tension))
 
 
+def check_texts(effect: Effect) -> None:
+    """Its texts are there, its formulas can be shown, its units can be typed."""
+    for text in (effect.title, effect.cause, effect.signature.text):
+        claim(text.strip() == text and len(text) > 3, f"a text is missing or has blanks around it: {text!r}")
+    claim(_TWO_SENTENCES.fullmatch(effect.cause), f"the cause is two sentences: {effect.cause}")
+    for latex in (effect.equation, *(parameter.symbol for parameter in effect.parameters)):
+        claim(convert(latex).startswith("<math"), f"no LaTeX: {latex}")
+    for parameter in effect.parameters:
+        claim(parameter.description.endswith("."), f"{parameter.name}: the description is no sentence")
+        text = "0.5" if parameter.unit == "1" else f"0.5 {parameter.unit}"
+        claim(si(text, parameter.unit) == 0.5, f"{parameter.name}: nobody can type the unit {parameter.unit}")
+    for slot, function in effect.slots.items():
+        claim(function.__doc__, f"the function of the slot {slot} has no docstring")
+        claim(getattr(function, "__globals__", {}).get("__doc__"), "the file has no docstring")
+
+
+def check_shows_at_its_default(effect: Effect) -> None:
+    """Its default is not the value at which it is off, and a fit may change something of it."""
+    claim(effect.defaults != effect.off, "the defaults are the values at which it is off")
+    claim(any(parameter.fitted for parameter in effect.parameters), "no parameter is fitted")
+
+
+def check_twins_are_separable(effect: Effect) -> None:
+    """What it is confused with is another known effect, and an experiment separates both."""
+    for twin in effect.confused_with:
+        claim(twin.effect in default_catalogue(), f"there is no effect {twin.effect} to be confused with")
+        claim(twin.effect != effect.id, "it is confused with itself")
+        claim(len(twin.separated_by) > 10, f"nothing is said to separate it from {twin.effect}")
+
+
+_TWO_SENTENCES = re.compile(r"[^.]+\. [^.]+\.|(?:[^.]|\.\d)+\. (?:[^.]|\.\d)+\.")
 Check = Callable[[Effect], None]
+_DECLARED: tuple[Check, ...] = (check_texts, check_shows_at_its_default, check_twins_are_separable)
 _ON_THE_MUSCLE: tuple[Check, ...] = (
     check_finite_at_all_bounds,
     check_numbers_and_symbols_agree,
@@ -294,9 +332,9 @@ _STATIC_CLAIMS: tuple[Check, ...] = (
 
 def checks_of(effect: Effect) -> tuple[Check, ...]:
     """What an effect is held to: one form for all; claims at rest, in a run from rest, or on the drive."""
-    common = (check_off_is_ideal, contract_slots.check_worked_examples)
+    common = (*_DECLARED, check_off_is_ideal, slots.check_worked_examples)
     if not acts_on_muscle(effect):
-        return (*common, *contract_slots.SLOT_CHECKS, *contract_dynamic.DRIVE_CLAIMS)
+        return (*common, *slots.SLOT_CHECKS, *runs.DRIVE_CLAIMS)
     if not effect.states:
         return (*common, *_ON_THE_MUSCLE, *_STATIC_CLAIMS)
-    return (*common, *_ON_THE_MUSCLE, *contract_slots.SLOT_CHECKS, *contract_dynamic.RUN_CLAIMS)
+    return (*common, *_ON_THE_MUSCLE, *slots.SLOT_CHECKS, *runs.RUN_CLAIMS)

@@ -1,0 +1,1 @@
+"""The check of an effect file: what it claims, whether it is found again, and where it is seen."""

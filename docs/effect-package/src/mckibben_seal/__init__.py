@@ -1,0 +1,1 @@
+"""Effects for mckibben: the seal of a sliding end fitting."""
