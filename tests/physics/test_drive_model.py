@@ -154,7 +154,8 @@ def test_all_effects_at_once_give_a_finite_jacobian() -> None:
     switches = {switch.symbol for switch in model.switches}
     assert free <= {*model.symbols.values(), *model.parameters.values(), *model.inputs.values(), *switches}
     moving = [*model.symbols.values(), *switches]
-    (first, *others) = [numbers(model, defaults(EFFECTS), share=share, speed=speed) for share, speed in PLACES]
+    values = defaults(EFFECTS)
+    first, *others = [numbers(model, values, share=share, speed=speed) for share, speed in PLACES]
     fixed = {symbol: value for symbol, value in first.items() if symbol not in moving}
     rates = [rate.subs(fixed) for rate in model.rates]
     slopes = [rate.diff(symbol) for rate in rates for symbol in rate.free_symbols & {*model.symbols.values()}]
