@@ -98,7 +98,10 @@ def of_each_kind_and_head(cases: list[Case]) -> list[Case]:
 
 @pytest.mark.parametrize(
     "which",
-    [of_each_kind_and_head, pytest.param(list, marks=pytest.mark.examination("test_files_read_as_what_was_measured"))],
+    [
+        of_each_kind_and_head,
+        pytest.param(list, marks=pytest.mark.examination("test_files_read_as_what_was_measured")),
+    ],
 )
 def test_files_read_as_what_was_measured(cases: list[Case], which: Callable[[list[Case]], list[Case]]):
     for made in which(cases):
