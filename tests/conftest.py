@@ -123,7 +123,7 @@ def _kernels_before_tests(request: pytest.FixtureRequest) -> None:
 
 @pytest.fixture(scope="module", autouse=True)
 def _files_read_in_place(request: pytest.FixtureRequest) -> Iterator[None]:
-    """Read files in the process of the tests but in those of `READ_APART`, and in the programs that they start.
+    """Read files in the process of the tests; those of `READ_APART` and programs that are started do not.
 
     To copy a process of a gigabyte takes three times as long as to read the file of a test.
     """
