@@ -37,6 +37,7 @@ READ_APART = (
 # takes one of these last lets the other workers wait.
 FIRST = (
     "test_toolchain.py",
+    "robustness/test_malformed_files.py",
     "frontend/test_transient.py",
     "measurement/reading",
     "frontend/test_sizing.py",
