@@ -34,8 +34,8 @@ READ_APART = (
     "door/test_measurement.py",
 )
 # First the one that compiles, beside the tools and 300 copies of a worker, which is small yet; then where most
-# of the time goes, the longest first: whoever takes one of these last lets the other workers wait. Comparing and
-# the cases begin with the same diagnosis, for which one would wait if they stood beside each other.
+# of the time goes, the longest first: whoever takes one of these last lets the other workers wait. Comparing
+# and the cases begin with the same diagnosis: beside each other one would wait for it.
 FIRST = (
     "test_toolchain.py",
     "robustness/test_malformed_files.py",
