@@ -33,7 +33,7 @@ READ_APART = (
     "server/test_measurements.py",
     "door/test_measurement.py",
 )
-# First the one that compiles, beside the tools and 300 copies of a worker, which is small yet; then where most
+# First the one that compiles, beside the tools and 300 copies of a worker that is small yet; then where most
 # of the time goes, the longest first: whoever takes one of these last lets the other workers wait. Comparing
 # and the cases begin with the same diagnosis: beside each other one would wait for it.
 FIRST = (
