@@ -24,17 +24,27 @@ hypothesis.settings.load_profile("mckibben")
 
 FOLDER = Path(__file__).parent
 # What needs no integrator, for the workers that would wait while one of them compiles those.
-WITHOUT_KERNELS = ("test_toolchain.py", "measurement/reading")
-# First the one that compiles, beside the tools; then where most of the time goes, the longest first: whoever
-# takes one of these last lets the other workers wait.
+WITHOUT_KERNELS = ("test_toolchain.py", "robustness/test_malformed_files.py", "measurement/reading")
+# What shows that files are read in a process of their own, and at each door that they are.
+READ_APART = (
+    "measurement/reading/test_process.py",
+    "robustness",
+    "server/test_event_loop.py",
+    "server/test_measurements.py",
+    "door/test_measurement.py",
+)
+# First the one that compiles, beside the tools and 300 copies of a worker that is small yet; then where most
+# of the time goes, the longest first: whoever takes one of these last lets the other workers wait. Comparing
+# and the cases begin with the same diagnosis: beside each other one would wait for it.
 FIRST = (
     "test_toolchain.py",
+    "robustness/test_malformed_files.py",
     "frontend/test_transient.py",
+    "frontend/test_compare.py",
     "measurement/reading",
     "frontend/test_sizing.py",
     "frontend/test_case.py",
     "frontend/test_compare_flows.py",
-    "frontend/test_compare.py",
     "frontend/test_design.py",
     "frontend/test_accessibility.py",
     "identification/diagnose/test_diagnosis.py",
@@ -49,7 +59,7 @@ FIRST = (
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Begin with the files and folders of `FIRST`; the others keep their order."""
-    absent = [name for name in (*FIRST, *WITHOUT_KERNELS) if not (FOLDER / name).exists()]
+    absent = [name for name in (*FIRST, *WITHOUT_KERNELS, *READ_APART) if not (FOLDER / name).exists()]
     assert not absent, f"{__file__} names files that are gone: {absent}"
     items.sort(key=lambda item: place_of(item.path, FIRST))
 
@@ -111,6 +121,22 @@ def _kernels_before_tests(request: pytest.FixtureRequest) -> None:
     needed = place_of(request.path, WITHOUT_KERNELS) == len(WITHOUT_KERNELS)
     if os.environ.get("PYTEST_XDIST_WORKER") and needed:
         request.getfixturevalue("compiled_kernels")
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _files_read_in_place(request: pytest.FixtureRequest) -> Iterator[None]:
+    """Read files in the process of the tests; those of `READ_APART` and programs that are started do not.
+
+    To copy a process of a gigabyte takes three times as long as to read the file of a test.
+    """
+    if place_of(request.path, READ_APART) < len(READ_APART):
+        yield
+        return
+    from mckibben.measurement import reading
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(reading, "bounded", lambda work, name, load, *, size: work())
+        yield
 
 
 @pytest.fixture(scope="session")

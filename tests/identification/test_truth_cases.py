@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from collections.abc import Callable
 from math import pi, sin, tan
 from pathlib import Path
@@ -81,8 +82,29 @@ def test_files_are_of_a_usual_size_and_say_the_kind_now_and_then(cases: list[Cas
     assert any("run" in line for line in headers)
 
 
-def test_files_read_as_what_was_measured(cases: list[Case]):
+def of_each_kind_and_head(cases: list[Case]) -> list[Case]:
+    """The first cases that bring a kind of experiment, or a name of a column, that none before them has."""
+    seen: set[str] = set()
+    chosen = []
     for made in cases:
+        lines = next(iter(made.files.values())).splitlines()
+        first = next(number for number, line in enumerate(lines) if line[:1].isdigit())
+        new = {made.kind, *re.split("[;,\t]", lines[first - 1])} - seen
+        if new:
+            chosen.append(made)
+        seen |= new
+    return chosen
+
+
+@pytest.mark.parametrize(
+    "which",
+    [
+        of_each_kind_and_head,
+        pytest.param(list, marks=pytest.mark.examination("test_files_read_as_what_was_measured")),
+    ],
+)
+def test_files_read_as_what_was_measured(cases: list[Case], which: Callable[[list[Case]], list[Case]]):
+    for made in which(cases):
         ((file, text),) = made.files.items()
         measurement = read_measurement(text.encode(), file)
         assert measurement.kind == made.kind, made.id

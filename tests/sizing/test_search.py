@@ -2,14 +2,25 @@
 
 from __future__ import annotations
 
+import json
 import re
+from collections.abc import Callable
 from dataclasses import replace
+from functools import cache
 from typing import Any
 
 import pytest
 
+from mckibben.application.json_text import to_json
 from mckibben.application.run.simulate import SimulationQuestion, simulate
-from mckibben.application.size.size import SizingResult, drive_document, prepare, sizing_question
+from mckibben.application.size.size import (
+    Searched,
+    SizingResult,
+    drive_document,
+    prepare,
+    prepare_search,
+    sizing_question,
+)
 from mckibben.documents.drive_reading import drive_of, read_document
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
@@ -57,9 +68,23 @@ def answer_of(task: dict[str, Any], studio: Studio) -> dict[str, Any]:
     return sized(task, studio)
 
 
+@pytest.fixture(scope="module")
+def searched(studio: Studio) -> Callable[[str], Searched]:
+    """The search of a task of `TASKS`, made once for all that is to be true of it."""
+    questions = {
+        name: sizing_question(SizingTask.model_validate(task), studio) for name, task in TASKS.items()
+    }
+    return cache(lambda name: prepare_search(questions[name])(Watch()))
+
+
+@pytest.fixture
+def answer(searched: Callable[[str], Searched], name: str) -> dict[str, Any]:
+    """Its answer, as JSON tells it."""
+    return json.loads(to_json(searched(name).result))
+
+
 @pytest.mark.parametrize("name", TASKS)
-def test_every_proposal_is_a_drive_that_runs_as_it_says(studio: Studio, name: str) -> None:
-    answer = answer_of(TASKS[name], studio)
+def test_every_proposal_is_a_drive_that_runs_as_it_says(studio: Studio, answer: dict[str, Any]) -> None:
     assert answer["proposals"]
     for proposal in answer["proposals"]:
         document = read_document(proposal["drive"], "the drive")
@@ -98,9 +123,11 @@ def test_the_impact_is_that_of_all_that_moves(studio: Studio) -> None:
 
 
 @pytest.mark.parametrize("name", TASKS)
-def test_the_document_means_the_numbers_that_were_simulated(studio: Studio, name: str) -> None:
-    task, catalogue = understood(TASKS[name], studio)
-    for proposal in size(task, catalogue).proposals:
+def test_the_document_means_the_numbers_that_were_simulated(
+    studio: Studio, searched: Callable[[str], Searched], name: str
+) -> None:
+    task = searched(name).question.task
+    for proposal in searched(name).sizing.proposals:
         design = proposal.design
         own = design.group.drive(task, design.length, design.pressure)
         given = drive_of(drive_document(design, task), studio).drive
@@ -110,8 +137,7 @@ def test_the_document_means_the_numbers_that_were_simulated(studio: Studio, name
 
 
 @pytest.mark.parametrize("name", TASKS)
-def test_proposals_keep_every_limit(studio: Studio, name: str) -> None:
-    answer = answer_of(TASKS[name], studio)
+def test_proposals_keep_every_limit(answer: dict[str, Any]) -> None:
     valid(SizingResult, answer)
     for proposal in answer["proposals"]:
         assert min(proposal["margins"].values()) >= -1e-9
@@ -215,6 +241,12 @@ MANY: dict[str, Any] = {
 }
 
 
+@pytest.fixture(scope="module")
+def searched_to_the_end(studio: Studio) -> SizingResult:
+    """`MANY` with all the time that it takes."""
+    return prepare(sizing_question(SizingTask.model_validate(MANY), studio))(Watch(time_limit=1e9))
+
+
 @pytest.mark.parametrize(
     ("looks", "said"),
     [
@@ -224,7 +256,7 @@ MANY: dict[str, Any] = {
     ],
 )
 def test_a_search_whose_time_is_over_keeps_the_drives_found_so_far(
-    studio: Studio, looks: int, said: list[str]
+    studio: Studio, searched_to_the_end: SizingResult, looks: int, said: list[str]
 ) -> None:
     lane_kernels.warm().join()  # or looks at the compiler count
     question = sizing_question(SizingTask.model_validate(MANY), studio)
@@ -245,8 +277,7 @@ def test_a_search_whose_time_is_over_keeps_the_drives_found_so_far(
         assert p.time is not None
         assert p.time <= 0.5
     # Nothing is rejected for what was not tried: no choice of parts that could do the task is named.
-    whole = prepare(question)(Watch(time_limit=1e9))
-    works = {(p.muscle, p.parallel, p.valve, p.tube) for p in whole.explored}
+    works = {(p.muscle, p.parallel, p.valve, p.tube) for p in searched_to_the_end.explored}
     assert not works & {(r.muscle, r.parallel, r.valve, r.tube) for r in result.rejected}
 
 
