@@ -16,6 +16,7 @@ from typing import Any
 import pytest
 import uvicorn
 
+from mckibben.server.app import TimingMiddleware
 from mckibben.server.serving import GuardedProtocol, Seldom, WithoutToken, connections_for
 from tests.running_server import MAIN, RunningServer
 from tests.server.conftest import run_async
@@ -189,3 +190,32 @@ def test_the_token_in_a_query_is_left_out() -> None:
     )
     assert WithoutToken().filter(line)
     assert line.getMessage() == '127.0.0.1:1 - "GET /?a=1&token=...&b=2 HTTP/1.1" 303'
+
+
+async def exchanged(port: int, sent: bytes) -> bytes:
+    """All that is answered to these bytes on a connection."""
+    reader, writer = await asyncio.open_connection("127.0.0.1", port)
+    writer.write(sent)
+    said = await reader.read()
+    writer.close()
+    await writer.wait_closed()
+    return said
+
+
+async def is_cancelled(scope: Any, receive: Any, send: Any) -> None:
+    raise asyncio.CancelledError
+
+
+@pytest.mark.parametrize(
+    ("sent", "status", "code"),
+    [
+        (b"\x16\x03\x01 nonsense\r\n\r\n", b"400", "bad_request"),
+        (b"GET / HTTP/1.1\r\nhost: a\r\nconnection: close\r\n\r\n", b"503", "unavailable"),
+    ],
+)
+def test_errors_have_one_form_without_exception(sent: bytes, status: bytes, code: str) -> None:
+    """What is no HTTP, and a request that the end of the server cancels, were answered in plain text."""
+    said = asked(TimingMiddleware(is_cancelled), lambda port: exchanged(port, sent))
+    head, _, body = said.partition(b"\r\n\r\n")
+    assert head.startswith(b"HTTP/1.1 " + status)
+    assert json.loads(body)["error"]["code"] == code

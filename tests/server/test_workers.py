@@ -5,16 +5,18 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import json
+import multiprocessing
 import os
 import signal
-import subprocess
 import sys
 import threading
 import time
 import urllib.error
 import urllib.request
+import warnings
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
+from multiprocessing import forkserver
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, get_args
@@ -22,11 +24,13 @@ from typing import Any, get_args
 import pytest
 from starlette.testclient import TestClient
 
+from mckibben.server import worker
 from mckibben.server.app import create_app
-from mckibben.server.job import LaneName
+from mckibben.server.job import Job, LaneName
 from mckibben.server.lane import BusyError
 from mckibben.server.schemas.curves import CurvesRequest
 from mckibben.server.settings import Settings
+from mckibben.server.supervised import Supervised
 from mckibben.server.workers import Ticket, Workers
 from tests.running_server import RunningServer
 from tests.server.conftest import CSV, run_async
@@ -238,39 +242,70 @@ def test_the_server_ends_under_work_and_leaves_no_process(
         assert "the server is ending" in told[0]  # as the last event, or as the answer if it had not begun
 
 
-@pytest.mark.examination("test_a_killed_worker_takes_its_own_job_alone")
-def test_processes_that_take_no_jobs_are_replaced(
+async def job(workers: Workers, body: CurvesRequest) -> bytes:
+    """One job, from the queue to its answer."""
+    ticket = workers.enter()
+    assert await ticket.place() is None
+    running = await workers.submit(ticket, "computation of curves", body)
+    while await running.news.get() is not None:
+        pass
+    return await workers.result(running)
+
+
+def test_each_kill_is_one_replacement_and_a_stopped_fork_server_is_replaced(
     tmp_path: Path, compiled_kernels: None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """As after a kill at the moment in which a process takes a job from the pipe of all."""
+    """Also processes that are stopped, which say nothing and do not end by themselves."""
     body = CurvesRequest.model_validate(CURVES)
     workers = Workers(Settings(workers=1, data=tmp_path))
+    monkeypatch.setattr("mckibben.server.supervised._MADE_WITHIN", 1.0)
 
-    async def job() -> bytes:
-        ticket = workers.enter()
-        assert await ticket.place() is None
-        running = await workers.submit(ticket, "computation of curves", body)
-        while await running.news.get() is not None:
-            pass
-        return await workers.result(running)
+    def process() -> Supervised:
+        return workers._processes[0]
 
-    async def both() -> None:
-        before = set(children(os.getpid()))
-        first = await job()
-        frozen = [pid for middle in set(children(os.getpid())) | before for pid in children(middle)]
-        for pid in frozen:
-            os.kill(pid, signal.SIGSTOP)
-        monkeypatch.setattr("mckibben.server.workers._BEGINS_WITHIN", 8.0)
+    async def replaced(before: Supervised) -> None:
+        while not (workers._processes and process() is not before and process().ready):
+            await asyncio.sleep(0.02)
+
+    async def run() -> None:
         try:
-            assert await job() == first
-            assert workers._parked == []  # each would hold descriptors as long as the server runs
+            first = await job(workers, body)
+            for number in (1, 2):
+                before = process()
+                os.kill(before.pid or 0, signal.SIGKILL)
+                await replaced(before)  # without a job that asks for it
+                assert workers.ended == {"killed": number}
+            before = process()
+            os.kill(forkserver._forkserver._forkserver_pid or 0, signal.SIGSTOP)
+            os.kill(before.pid or 0, signal.SIGKILL)
+            assert await job(workers, body) == first
+            monkeypatch.setattr("mckibben.server.supervised._TAKEN_WITHIN", 0.5)
+            os.kill(process().pid or 0, signal.SIGSTOP)
+            assert await job(workers, body) == first
+            assert workers.ended["silent"] == 1
+            # The end does not wait for a fork server that cannot tell how processes end.
+            os.kill(forkserver._forkserver._forkserver_pid or 0, signal.SIGSTOP)
         finally:
-            for pid in frozen:
-                with contextlib.suppress(ProcessLookupError):
-                    os.kill(pid, signal.SIGCONT)
             await asyncio.to_thread(workers.close)
 
-    run_async(both())
+    run_async(run())
+
+
+def test_work_has_an_end_in_native_code_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    """By processor time: what others take of the processor is not taken from it."""
+    endless = Job(lambda *_: lambda _: bytes(sum(range(10**15))), time_limit=1.0, looks=False)
+    monkeypatch.setattr(worker, "JOBS", {"endless": endless})
+    read, write = multiprocessing.Pipe()
+    own = SimpleNamespace(studio=None, store=None, memory=1)
+    forked = multiprocessing.get_context("fork").Process(
+        target=worker._perform, args=(worker.Order(1, "endless", None), own, worker._Line(write))
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)
+        forked.start()
+    forked.join(60)
+    assert forked.exitcode == -signal.SIGXCPU
+    assert read.recv().kind == "prepared"
 
 
 def queue(workers: int, length: int) -> Workers:
@@ -326,35 +361,3 @@ def test_every_lane_starts_when_the_page_looks_at_measurements(settings: Setting
         TestClient(app, base_url=f"http://127.0.0.1:{settings.port}").get("/api/mysteries").status_code == 200
     )
     assert sorted(started) == sorted(get_args(LaneName))
-
-
-_TOO_LATE = """
-import _multiprocessing, multiprocessing, os, sys
-
-def main():
-    context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload(sys.argv[1:])
-    lock = context.Lock()
-    _multiprocessing.sem_unlink(lock._semlock.name)
-    process = context.Process(target=os.getpid, args=(lock,))
-    process.start()
-    process.join()
-    print(process.exitcode)
-    os._exit(0)
-
-if __name__ == "__main__":
-    main()
-"""
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no fork server")
-@pytest.mark.parametrize(("loaded", "says"), [("mckibben.server.forked", False), ("json", True)])
-def test_a_worker_that_comes_too_late_ends_without_a_traceback(
-    tmp_path: Path, loaded: str, says: bool
-) -> None:
-    """The locks of its pool are gone; the other module shows that this is where Python would print one."""
-    script = tmp_path / "late.py"
-    script.write_text(_TOO_LATE, "utf-8")
-    ended = subprocess.run([sys.executable, script, loaded], capture_output=True, text=True, check=True)
-    assert ended.stdout == "1\n"
-    assert ("Traceback" in ended.stderr) == says, ended.stderr

@@ -20,7 +20,7 @@ from mckibben.documents.studio import Studio
 from mckibben.measurement.store import MeasurementStore
 from mckibben.report.document import versions
 from mckibben.server import errors, static
-from mckibben.server.errors import unexpected_answer
+from mckibben.server.errors import error_answer, unexpected_answer
 from mckibben.server.lanes import Lanes
 from mckibben.server.routes.curves import curves_router, inverse_router
 from mckibben.server.routes.drives import (
@@ -206,6 +206,13 @@ class TimingMiddleware(HttpMiddleware):
             await self.app(scope, timed_receive, timed_send)
         except ClientDisconnect:
             return  # the client disconnected within the body: no answer is needed, and nothing is stored
+        except asyncio.CancelledError:
+            # By uvicorn at the end; uvicorn would send plain text.
+            if started:
+                raise
+            await error_answer(503, "The server is ending.", hint="Start it again.")(
+                scope, receive, timed_send
+            )
         except Exception as error:
             # Inside Starlette's error layer, which would send plain text and log a second time.
             if started:

@@ -200,9 +200,13 @@ class GuardedProtocol(H11Protocol):
         rank = 1 if self._served else 0 if now - self._heard > _JUST_COME else 2
         return rank, self.cycle is not None, self._heard
 
-    def _end(self, status: bytes, why: bytes) -> None:
+    def send_400_response(self, msg: str) -> None:
+        """Refuse what is no HTTP; uvicorn answers in plain text."""
+        self._end(b"400 Bad Request", b"this is not a request of HTTP/1.1", b"bad_request")
+
+    def _end(self, status: bytes, why: bytes, code: bytes = b"busy") -> None:
         if self.cycle is None or self.cycle.response_complete or not self.cycle.response_started:
-            body = b'{"error":{"code":"busy","message":"%s","field":null,"hint":null}}' % why
+            body = b'{"error":{"code":"%s","message":"%s","field":null,"hint":null}}' % (code, why)
             self.transport.write(
                 b"HTTP/1.1 %s\r\ncontent-type: application/json\r\nconnection: close\r\nretry-after: 1\r\n"
                 b"content-length: %d\r\n\r\n%s" % (status, len(body), body)
@@ -269,5 +273,5 @@ def log_config(level: str) -> dict[str, Any]:
     own = {"handlers": ["default"], "level": level.upper(), "propagate": False}
     # What others warn of is a matter of theirs.
     others = {**own, "level": "ERROR" if level in ("critical", "error", "warning") else level.upper()}
-    config["loggers"] |= {"mckibben": own, "asyncio": others, "pebble": others}
+    config["loggers"] |= {"mckibben": own, "asyncio": others}
     return config
