@@ -32,7 +32,7 @@ def test_what_is_saved_is_opened(store: ProjectStore) -> None:
     assert (opened.summary.version, opened.summary.files) == (1, 1)
     assert opened.summary.size > len(CSV)
     assert opened.measurements == (FILE.measurement,)
-    assert store.files(made.summary.id) == [FILE]
+    assert list(store.files(made.summary.id)) == [FILE]
     assert [each.id for each in store.list()] == [made.summary.id]
 
 
@@ -121,7 +121,7 @@ def test_the_bin_gives_back(store: ProjectStore) -> None:
     assert [each.id for each in store.list(deleted=True)] == [identity]
     for refused in (
         lambda: store.open(identity),
-        lambda: store.files(identity),
+        lambda: list(store.files(identity)),
         lambda: store.history(identity),
         lambda: store.save(identity, {}, base_version=1),
     ):
@@ -148,7 +148,7 @@ def test_the_bin_is_emptied_after_thirty_days(store: ProjectStore, monkeypatch: 
     now[0] += 2 * 86_400_000
     kept = store.create({}, title="newer", files=[FILE]).summary.id
     assert store.list(deleted=True) == []
-    assert store.files(kept) == [FILE], "a content that another project needs stays"
+    assert list(store.files(kept)) == [FILE], "a content that another project needs stays"
 
 
 def test_a_copy_is_its_own(store: ProjectStore) -> None:
@@ -160,7 +160,7 @@ def test_a_copy_is_its_own(store: ProjectStore) -> None:
     assert store.open(identity).document == DOCUMENT
     store.delete(identity)
     store.erase(identity)
-    assert store.files(copy.summary.id) == [FILE]
+    assert list(store.files(copy.summary.id)) == [FILE]
 
 
 @pytest.mark.parametrize(

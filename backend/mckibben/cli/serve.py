@@ -10,12 +10,14 @@ import sys
 import threading
 import webbrowser
 from collections.abc import Sequence
+from dataclasses import fields
 from pathlib import Path
 from types import FrameType
 
 import typer
 
 from mckibben.cli.options import folders
+from mckibben.folder import Quotas
 from mckibben.physics.errors import InputError
 
 DEFAULT_PORT = 8000
@@ -34,7 +36,7 @@ def run(
     token_file: Path | None,
     log_level: str,
     access_log: bool | None,
-    quota: float,
+    quota: Sequence[str],
     presets: Path | None,
     effects: Sequence[Path],
     data: Path | None,
@@ -46,7 +48,7 @@ def run(
         InputError: the address cannot be used, or a folder does not exist.
     """
     chosen = folders(presets, effects, data)
-    stated_token = _stated_token(token_file)
+    stated_token, quotas = _stated_token(token_file), _stated_quotas(quota)
     listening = _bind(host, port)
     # Imported only after the port is bound: errors of the address are reported at once.
     import uvicorn
@@ -68,7 +70,7 @@ def run(
         data=chosen.data,
         projects=projects,
         workers=(os.cpu_count() or 1) if workers is None else workers,
-        quota=round(quota * 1e9),
+        quotas=quotas,
         log_level=log_level,
         access_log=access_log,
     )
@@ -100,6 +102,23 @@ def run(
         Server(config).run(sockets=[listening])
     except KeyboardInterrupt:
         typer.echo("Stopped.", err=True)
+
+
+def _stated_quotas(texts: Sequence[str]) -> Quotas:
+    """What each kind of what is kept may take, from texts such as 'projects=8'."""
+    stated = {}
+    for text in texts:
+        kind, is_named, size = text.rpartition("=")
+        kind = kind.strip() if is_named else "measurements"
+        try:
+            stated[kind] = round(float(size) * 1e9)
+        except (ValueError, OverflowError):
+            stated[kind] = 0
+        known = [field.name for field in fields(Quotas)]
+        if kind not in known or stated[kind] <= 0:
+            hint = f"e.g. --quota projects=8, for 8 GB; kinds: {', '.join(known)}"
+            raise InputError(f"--quota {text}: is no size of what is kept", hint=hint)
+    return Quotas(**stated)
 
 
 def _stated_token(file: Path | None) -> str | None:

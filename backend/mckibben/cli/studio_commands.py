@@ -66,9 +66,14 @@ def serve(
         "--access-log/--no-access-log",
         help="A line for each request. Default: only on addresses that others can reach.",
     ),
-    quota: float = typer.Option(
-        4.0, min=0.001, metavar="GB", help="How much kept measurements may take on the disk."
-    ),
+    quota: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="KIND=GB",
+            help="How much what is kept may take on the disk: measurements=4, projects=4, studies=0.5, "
+            "presets=0.1 (the defaults); a number alone is that of measurements. May be repeated.",
+        ),
+    ] = None,
     presets: PresetsFolder = None,
     effects: EffectsFolders = None,
     data: DataFolder = None,
@@ -85,7 +90,7 @@ def serve(
         token_file=token_file,
         log_level=log_level.value,
         access_log=access_log,
-        quota=quota,
+        quota=quota or [],
         presets=presets,
         effects=effects or [],
         data=data,

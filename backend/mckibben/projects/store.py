@@ -7,10 +7,11 @@ that it began with, and is refused where the project has a later one.
 from __future__ import annotations
 
 import builtins
+import contextlib
 import hashlib
 import json
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 from uuid import uuid4
 
@@ -18,6 +19,7 @@ from sqlalchemy import delete, func, select, update
 from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.orm import Session
 
+from mckibben.folder import QUOTAS, no_space
 from mckibben.physics.errors import InputError
 from mckibben.projects.database import Database
 from mckibben.projects.project import (
@@ -51,10 +53,12 @@ class ProjectStore:
 
     Args:
         database: where they are.
+        quota: most bytes that all may take, with those in the bin, which is emptied before more are refused.
     """
 
-    def __init__(self, database: Database) -> None:
+    def __init__(self, database: Database, *, quota: int = QUOTAS.projects) -> None:
         self._database = database
+        self.quota = quota
 
     @property
     def place(self) -> str:
@@ -85,7 +89,7 @@ class ProjectStore:
         """A new project with its first revision."""
         text, title, notes = _text_of(document), checked_title(title), checked_notes(notes)
         identity, now = uuid4().hex, _now()
-        with self._database.session(writes=True) as session:
+        with self._writing(len(text)) as session:
             empty_bin(session, now)
             session.add(
                 ProjectRow(id=identity, title=title, notes=notes, version=1, created=now, changed=now)
@@ -101,17 +105,25 @@ class ProjectStore:
         with self._database.session() as session:
             return opened(session, identity, version)
 
-    def files(self, identity: str) -> builtins.list[StoredFile]:
-        """The measurement files of a project, with their content."""
+    def files(self, identity: str) -> Iterator[StoredFile]:
+        """The measurement files of a project, one after the other: all at once may be more than fits."""
         with self._database.session() as session:
             row_of(session, identity)
-            rows = session.execute(
-                select(FileRow, ContentRow.data)
-                .join(ContentRow, ContentRow.digest == FileRow.digest)
-                .where(FileRow.project == identity)
-                .order_by(FileRow.measurement)
-            )
-            return [StoredFile(row.measurement, row.name, data, row.mapping) for row, data in rows]
+            order = select(FileRow.measurement).where(FileRow.project == identity)
+            measurements = session.scalars(order.order_by(FileRow.measurement)).all()
+        for measurement in measurements:
+            with self._database.session() as session:
+                row = session.get(FileRow, (identity, measurement))
+                content = None if row is None else session.get(ContentRow, row.digest)
+                if row is None or content is None:  # erased meanwhile
+                    continue
+                file = StoredFile(row.measurement, row.name, content.data, row.mapping)
+            yield file
+
+    def measurements(self, identity: str) -> set[str]:
+        """Ids of the measurements kept with a project; none of a project that is not there."""
+        with self._database.session() as session:
+            return set(session.scalars(select(FileRow.measurement).where(FileRow.project == identity)))
 
     def studies(self, identity: str) -> builtins.list[StoredStudy]:
         """The study tables of a project, the one saved last first."""
@@ -153,7 +165,7 @@ class ProjectStore:
             ChangedElsewhereError: the project has another version.
         """
         text, now = _text_of(document), _now()
-        with self._database.session(writes=True) as session:
+        with self._writing(len(text)) as session:
             version = next_version(session, identity, base_version, now)
             before = session.get(RevisionRow, (identity, base_version))
             if automatic and before is not None and before.automatic and _same_span(before.saved, now):
@@ -172,7 +184,7 @@ class ProjectStore:
         Raises:
             ChangedElsewhereError: the project has another version.
         """
-        with self._database.session(writes=True) as session:
+        with self._writing(0) as session:
             row, now = row_of(session, identity), _now()
             values = {
                 "title": row.title if title is None else checked_title(title),
@@ -216,7 +228,60 @@ class ProjectStore:
                 raise InputError("only a deleted project can be erased", code="conflict")
             last = summary_of(session, row)
             remove(session, [identity])
-            return last
+        self._database.shrink()
+        return last
+
+    def empty_bin(self) -> None:
+        """Erase all deleted projects."""
+        with self._database.session(writes=True) as session:
+            remove(session, [*session.scalars(select(ProjectRow.id).where(ProjectRow.deleted.is_not(None)))])
+        self._database.shrink()
+
+    def size(self) -> tuple[int, int]:
+        """What all projects take, with those in the bin, and what only those in the bin take [bytes]."""
+        with self._database.session() as session:
+            rows = session.scalars(select(ProjectRow).where(ProjectRow.deleted.is_not(None)))
+            return self._database.taken(session), sum(summary_of(session, row).size for row in rows)
+
+    def check_room(self, size: int) -> None:
+        """Refuse what is about to be written before it is.
+
+        Args:
+            size: of it [bytes].
+
+        Raises:
+            InputError: code ``no_space``, it has no room beside what is kept, without the bin.
+        """
+        with self._database.session() as session:
+            taken = self._database.taken(session)
+        if taken + size > self.quota:
+            binned = self.size()[1]
+            if taken - binned + size > self.quota:
+                raise self._no_space(taken - binned, size)
+
+    def _no_space(self, taken: int, needs: int) -> InputError:
+        place = self._database.folder
+        return no_space("projects", taken=taken, quota=self.quota, needs=needs, folder=place)
+
+    @contextlib.contextmanager
+    def _writing(self, size: int) -> Iterator[Session]:
+        """A transaction that adds something; undone where all then takes more than it may.
+
+        Args:
+            size: of what is added at least [bytes].
+        """
+        with self._database.session(writes=True) as session:
+            before = self._database.taken(session)
+            yield session
+            session.flush()
+            if self._database.taken(session) <= max(self.quota, before):
+                return
+            oldest = select(ProjectRow.id).where(ProjectRow.deleted.is_not(None)).order_by(ProjectRow.deleted)
+            for identity in session.scalars(oldest).all():
+                remove(session, [identity])
+                if self._database.taken(session) <= self.quota:
+                    return
+            raise self._no_space(before, max(size, self._database.taken(session) - before))
 
     def history(self, identity: str) -> Sequence[Revision]:
         """The revisions of a project, the last one first."""
@@ -251,7 +316,7 @@ class ProjectStore:
         title, notes = checked_title(title), checked_notes(notes)
         texts = [(revision, _text_of(document)) for revision, document in revisions]
         identity, now = uuid4().hex, _now()
-        with self._database.session(writes=True) as session:
+        with self._writing(sum(len(text) for _, text in texts)) as session:
             row = ProjectRow(id=identity, title=title, notes=notes, version=last, created=now, changed=now)
             session.add(row)
             session.flush()
@@ -261,6 +326,7 @@ class ProjectStore:
                     session, identity, revision.version, saved, revision.label,
                     automatic=revision.automatic, text=text,
                 )  # fmt: skip
+            thin(session, identity)
             keep_files(session, identity, files)
             keep_studies(session, identity, studies, now)
             return opened(session, identity)

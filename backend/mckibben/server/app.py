@@ -44,6 +44,7 @@ from mckibben.server.routes.program import description_router, facts_router, hea
 from mckibben.server.routes.projects import projects_router
 from mckibben.server.security import BodyLimitMiddleware, HttpMiddleware, SecurityMiddleware
 from mckibben.server.settings import Settings
+from mckibben.server.uploads import Scratch
 from mckibben.simulation.integrate.many import lane_kernels
 from mckibben.version import __version__
 
@@ -117,7 +118,9 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         presets=settings.presets, user_presets=settings.user_presets, effects=settings.effects
     )
     app.state.projects, app.state.opening_projects = None, threading.Lock()
-    app.state.store = MeasurementStore(settings.data, quota=settings.quota)
+    app.state.studio.library.quota = settings.quotas.presets
+    app.state.store = MeasurementStore(settings.data, quotas=settings.quotas)
+    app.state.scratch = Scratch(app.state.store)
     app.state.workers = Lanes(settings) if settings.workers else None
     app.state.effects = EffectsDocument(app.state.studio.catalogue)
     app.state.versions = versions()

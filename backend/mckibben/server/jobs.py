@@ -118,7 +118,7 @@ def _linear_view(body: LinearisationRequest, studio: Studio, _store: Measurement
 
 def _study(body: StudyDocument, studio: Studio, store: MeasurementStore) -> Prepared:
     question = study.study_question(body, studio, MOST_RUNS)
-    work = study.prepare(question, journal=StudyStore(store.data).of(question))
+    work = study.prepare(question, journal=StudyStore(store.data, quota=store.quotas.studies).of(question))
     return lambda watch: to_json(work(watch))
 
 

@@ -27,6 +27,11 @@ UPLOADS = frozenset(
     {("PUT", "/api/measurements"), ("POST", "/api/measurements/preview"), ("POST", "/api/projects/import")}
 )
 
+#: Bytes of all bodies that arrive or are worked on at a time: of files, and of others, which are in memory.
+IN_FLIGHT = {True: 512_000_000, False: 64_000_000}
+_FLIGHT_PASSES = 5  # s after which to try again
+_FULL_FLIGHT = "The server is busy: too much is being sent to it at the moment."
+
 CONTENT_SECURITY_POLICY = (
     "default-src 'self'; img-src 'self' data: blob:; style-src 'self' 'unsafe-inline'; object-src 'none'; "
     "base-uri 'none'; frame-ancestors 'none'; form-action 'none'"
@@ -186,11 +191,19 @@ def _cookie_value(header: str, name: str) -> str:
 
 
 class BodyLimitMiddleware(HttpMiddleware):
-    """Refuse a body that is too large: by its declared length, or while it streams in."""
+    """Refuse a body that is too large, alone or beside others: by its declared length, or as it streams in.
+
+    Files arrive on the disk, other bodies in memory; each has its budget of bytes that are in flight.
+    """
+
+    def __init__(self, app: ASGIApp) -> None:
+        super().__init__(app)
+        self._in_flight = {True: 0, False: 0}
 
     async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Pass one request on with its body counted."""
-        limit = UPLOAD_LIMIT if (scope["method"], scope["path"]) in UPLOADS else JSON_LIMIT
+        is_file = (scope["method"], scope["path"]) in UPLOADS
+        limit = UPLOAD_LIMIT if is_file else JSON_LIMIT
         message = f"The body is larger than {limit // 1_000_000} MB."
         declared = Headers(scope=scope).get("content-length", "0")
         if not (declared.isascii() and declared.isdigit()):
@@ -201,7 +214,16 @@ class BodyLimitMiddleware(HttpMiddleware):
         if len(declared.lstrip("0")) > 12 or int(declared) > limit:
             await error_answer(413, message)(scope, receive, send)
             return
-        received = 0
+        received = held = 0
+
+        def hold(size: int) -> None:
+            """Count the body as in flight, at first as large as it declares to be."""
+            nonlocal held
+            if size > held:
+                if self._in_flight[is_file] + size - held > IN_FLIGHT[is_file]:
+                    raise HTTPException(429, _FULL_FLIGHT, {"retry-after": str(_FLIGHT_PASSES)})
+                self._in_flight[is_file] += size - held
+                held = size
 
         async def counted() -> Message:
             nonlocal received
@@ -209,6 +231,17 @@ class BodyLimitMiddleware(HttpMiddleware):
             received += len(part.get("body", b""))
             if received > limit:
                 raise HTTPException(413, message)
+            hold(received)
             return part
 
-        await self.app(scope, counted, send)
+        try:
+            hold(int(declared))
+            await self.app(scope, counted, send)
+        except HTTPException as refused:  # by its declared length; later ones are answered inside
+            answer = error_answer(
+                refused.status_code, str(refused.detail), hint=f"Try again in {_FLIGHT_PASSES} s."
+            )
+            answer.headers.update(refused.headers or {})
+            await answer(scope, receive, send)
+        finally:
+            self._in_flight[is_file] -= held

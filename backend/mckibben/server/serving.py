@@ -35,6 +35,8 @@ LEAST_CONNECTIONS = 16
 _WISHED_FILES = 4096  # descriptors; systems begin with 256 to 1024, and allow more when asked
 _HEADERS_WITHIN = 10.0  # s, all of them
 _BODY_WITHIN = 20.0  # s, from one piece to the next
+_SLOW_WITHIN = 30.0  # s that a body may take however slow it is, then
+_LEAST_RATE = 10_000.0  # bytes/s on the mean
 _JUST_COME = 0.1  # s
 _TAKEN_WITHIN = 60.0  # s in which nothing of an answer is taken
 
@@ -100,11 +102,15 @@ class GuardedProtocol(H11Protocol):
         most: connections at a time.
         headers_within, body_within, taken_within: time for all headers, for the next piece of a body, and for
             a piece of the answer to be taken [s].
+        slow_within, least_rate: time that a whole body may take however slow it is [s], and the mean rate of
+            one that takes longer [bytes/s].
     """
 
     most = MOST_CONNECTIONS
     headers_within = _HEADERS_WITHIN
     body_within = _BODY_WITHIN
+    slow_within = _SLOW_WITHIN
+    least_rate = _LEAST_RATE
     taken_within = _TAKEN_WITHIN
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
@@ -112,6 +118,8 @@ class GuardedProtocol(H11Protocol):
         self._timer: asyncio.TimerHandle | None = None
         self._taking: asyncio.TimerHandle | None = None
         self._heard, self._served = 0.0, False
+        self._body_of: object = None
+        self._body_since, self._body_size = 0.0, 0
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # pyright: ignore - as uvicorn
         """Take the connection, in the place of another one if there are too many."""
@@ -132,7 +140,14 @@ class GuardedProtocol(H11Protocol):
         self._heard = self.loop.time()
         super().data_received(data)
         if self._in_body():
-            self._wait(self.body_within)
+            if self._body_of is not self.cycle:
+                self._body_of, self._body_since, self._body_size = self.cycle, self._heard, 0
+            self._body_size += len(data)
+            left = self.slow_within + self._body_size / self.least_rate - (self._heard - self._body_since)
+            if left < 0.0:
+                self._too_slow()
+            else:
+                self._wait(min(self.body_within, left))
         elif self._at_work():
             self._wait(None)
         elif self._timer is None:

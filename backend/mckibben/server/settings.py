@@ -6,6 +6,7 @@ import ipaddress
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from mckibben.folder import QUOTAS, Quotas
 from mckibben.measurement.reading.limits import MOST_MEMORY
 from mckibben.resources import frontend_folder, presets_folder, user_folder
 
@@ -47,7 +48,7 @@ class Settings:
         queue: jobs that may wait for a worker; more are refused.
         worker_memory: bytes that one of them may take.
         reader_memory: bytes that one that reads files may take.
-        quota: bytes that kept measurements may take on the disk.
+        quotas: bytes that each kind of what is kept may take on the disk.
         log_level: of what the server writes to the terminal.
         access_log: whether it writes a line for each request; None = only when it is reachable from outside.
     """
@@ -65,7 +66,7 @@ class Settings:
     queue: int = 16
     worker_memory: int = 3_000_000_000
     reader_memory: int = MOST_MEMORY
-    quota: int = 4_000_000_000
+    quotas: Quotas = QUOTAS
     log_level: str = "warning"
     access_log: bool | None = None
 

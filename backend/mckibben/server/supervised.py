@@ -255,4 +255,4 @@ def _fork_server() -> int | None:
     from multiprocessing import forkserver
 
     # There is no public way to end one that is stopped: the one of the library waits for it.
-    return forkserver._forkserver._forkserver_pid  # type: ignore[attr-defined]
+    return forkserver._forkserver._forkserver_pid  # type: ignore

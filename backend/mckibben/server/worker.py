@@ -154,7 +154,7 @@ def _begin(settings: Settings, memory: int, compiled: bool) -> _Own:
     else:
         load_readers()
     gc.freeze()  # what is loaded by now stays; looking at it again would stop a job for a tenth of a second
-    return _Own(studio, MeasurementStore(settings.data, quota=settings.quota), memory)
+    return _Own(studio, MeasurementStore(settings.data, quotas=settings.quotas), memory)
 
 
 def _perform(order: Order, own: _Own, line: _Line) -> None:

@@ -43,6 +43,8 @@ ERRORS: dict[int | str, dict[str, Any]] = {
         422: "The input cannot be used.",
         429: "Too many jobs wait; Retry-After says how long, about.",
         500: "The server failed; the log says more.",
+        503: "Not at the moment: a database or a process that it needs does not answer; later it may.",
+        507: "No space: what is kept takes all that it may, or the disk is full; with figures.",
     }.items()
 }
 
