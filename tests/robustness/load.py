@@ -21,6 +21,8 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
+from tests.running_server import AUTHORIZED
+
 CURVES = {"muscle": {"preset": "DMSP-20"}, "pressures": ["2 bar", "4 bar"], "points": 50}
 DIAGNOSIS = {
     "muscle": {"preset": "DMSP-20", "nominal_length": "300 mm"},
@@ -60,7 +62,7 @@ def ask(
 ) -> Said:
     """Send a request of its own connection; an object is sent as JSON, bytes as a file."""
     content = body if body is None or isinstance(body, bytes) else json.dumps(body).encode()
-    headers = {"content-type": "text/csv" if isinstance(body, bytes) else "application/json"}
+    headers = AUTHORIZED | {"content-type": "text/csv" if isinstance(body, bytes) else "application/json"}
     if events:
         headers["accept"] = "text/event-stream"
     begin = time.perf_counter()
@@ -136,7 +138,7 @@ def clients(server: Server, number: int, seconds: float, every: float = 1.0) -> 
     port = int(server.url.rpartition(":")[2])
     request = (
         f"POST /api/curves HTTP/1.1\r\nhost: 127.0.0.1:{port}\r\ncontent-type: application/json\r\n"
-        f"content-length: {len(body)}\r\n\r\n"
+        f"authorization: {AUTHORIZED['authorization']}\r\ncontent-length: {len(body)}\r\n\r\n"
     ).encode() + body
     pace = Pace()
 

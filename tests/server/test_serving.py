@@ -67,7 +67,7 @@ def test_half_requests_keep_nobody_from_being_answered(guarded_server: RunningSe
 def test_the_token_of_a_file_is_asked_for_and_never_written(guarded_server: RunningServer) -> None:
     with pytest.raises(urllib.error.HTTPError) as refused:
         health(guarded_server)
-    assert refused.value.code == 403
+    assert refused.value.code == 401
     refused.value.close()
     opener = urllib.request.build_opener(urllib.request.HTTPCookieProcessor())
     with opener.open(f"{guarded_server.url}/api/health?token={TOKEN}", timeout=20) as answer:
@@ -219,3 +219,20 @@ def test_errors_have_one_form_without_exception(sent: bytes, status: bytes, code
     head, _, body = said.partition(b"\r\n\r\n")
     assert head.startswith(b"HTTP/1.1 " + status)
     assert json.loads(body)["error"]["code"] == code
+
+
+def test_a_body_slower_than_the_least_rate_is_ended() -> None:
+    """One byte every 19 s kept 62 MB in memory for as long as anybody liked."""
+
+    async def drip(port: int) -> bytes:
+        reader, writer = await asyncio.open_connection("127.0.0.1", port)
+        writer.write(b"POST / HTTP/1.1\r\nhost: a\r\ncontent-length: 9000\r\n\r\n")
+        said = asyncio.ensure_future(reader.read())
+        while not said.done():
+            writer.write(b"x")
+            await asyncio.sleep(0.05)
+        writer.close()
+        return said.result()
+
+    said = asked(says_ok, drip, body_within=5.0, slow_within=0.2, least_rate=1e4)
+    assert said.startswith(b"HTTP/1.1 408 ")

@@ -32,7 +32,7 @@ from mckibben.server.schemas.curves import CurvesRequest
 from mckibben.server.settings import Settings
 from mckibben.server.supervised import Supervised
 from mckibben.server.workers import Ticket, Workers
-from tests.running_server import RunningServer
+from tests.running_server import RunningServer, opener
 from tests.server.conftest import CSV, run_async
 
 DIAGNOSIS = {
@@ -61,7 +61,7 @@ def send(
     headers = {"content-type": "application/json", "accept": accept}
     request = urllib.request.Request(server.url + path, data, headers)
     try:
-        with urllib.request.urlopen(request, timeout=300) as answer:
+        with opener().open(request, timeout=300) as answer:
             return answer.status, answer.read().decode(), answer.headers
     except urllib.error.HTTPError as error:
         if error.code == 500:
@@ -167,7 +167,7 @@ def test_a_typed_term_and_a_file_do_not_wait_for_diagnoses(served: RunningServer
     headers = {"content-type": "application/json", "accept": "text/event-stream"}
     request = urllib.request.Request(served.url + "/api/diagnoses", data, headers)
     with contextlib.ExitStack() as asked:
-        streams = [asked.enter_context(urllib.request.urlopen(request, timeout=60)) for _ in range(4)]
+        streams = [asked.enter_context(opener().open(request, timeout=60)) for _ in range(4)]
         until(lambda: health(served)["waiting"] == 2)
         assert send(served, "/api/curves", CURVES | {"effects": TERM})[0] == 200
         lanes = {lane["name"]: lane for lane in health(served)["lanes"]}
@@ -176,7 +176,7 @@ def test_a_typed_term_and_a_file_do_not_wait_for_diagnoses(served: RunningServer
         comparison = DIAGNOSIS | {"effects": TERM}
         assert send(served, "/api/comparisons", comparison)[0] == 200
         upload = urllib.request.Request(f"{served.url}/api/measurements?name=a.csv", CSV, method="PUT")
-        with urllib.request.urlopen(upload, timeout=60) as answer:
+        with opener().open(upload, timeout=60) as answer:
             assert answer.status == 200
         # All this was done before half of the diagnoses; nobody waits for them.
         assert health(served)["running"] + health(served)["waiting"] >= 2
@@ -203,7 +203,7 @@ def test_whoever_leaves_frees_the_worker(served: RunningServer) -> None:
     headers = {"content-type": "application/json", "accept": "text/event-stream"}
     for _ in range(3):
         request = urllib.request.Request(served.url + "/api/diagnoses", data, headers)
-        with urllib.request.urlopen(request, timeout=60) as answer:
+        with opener().open(request, timeout=60) as answer:
             answer.readline()
     until(lambda: health(served)["running"] == 0, within=10.0)
     assert send(served, "/api/diagnoses", QUICK)[0] == 200

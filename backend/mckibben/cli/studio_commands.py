@@ -41,7 +41,7 @@ class LogLevel(StrEnum):
 @app.command()
 def serve(
     host: str = typer.Option(
-        "127.0.0.1", help="Address to listen on; any address but loopback requires a token."
+        "127.0.0.1", help="Address to listen on; any but loopback needs --certfile, or --insecure."
     ),
     port: int | None = typer.Option(
         None, min=0, max=65535, help="Port; 0 = any free port. Default: 8000, or the next free one."
@@ -57,9 +57,27 @@ def serve(
         Path | None,
         typer.Option(
             metavar="FILE",
-            help="Take the token from this file instead of a new one at each start; also MCKIBBEN_TOKEN.",
+            help="Take the token from this file; also MCKIBBEN_TOKEN. Else it is in the file 'token' of the "
+            "data folder, and a new one at each start on addresses that others can reach.",
         ),
     ] = None,
+    uds: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="PATH", help="Listen on a Unix socket that only you can open, instead of an address."
+        ),
+    ] = None,
+    certfile: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Certificate (PEM): the server speaks HTTPS.")
+    ] = None,
+    keyfile: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Its key, where it is not in the same file.")
+    ] = None,
+    insecure: bool = typer.Option(
+        False,
+        "--insecure",
+        help="With --host: send token and data in clear text, which everybody on the way can read.",
+    ),
     log_level: Annotated[LogLevel, typer.Option(help="What is written to the terminal.")] = LogLevel.warning,
     access_log: bool | None = typer.Option(
         None,
@@ -88,6 +106,9 @@ def serve(
         open_browser=not no_open,
         workers=workers,
         token_file=token_file,
+        uds=uds,
+        certificate=None if certfile is None else (certfile, keyfile),
+        insecure=insecure,
         log_level=log_level.value,
         access_log=access_log,
         quota=quota or [],

@@ -27,6 +27,7 @@ log = logging.getLogger("mckibben.server")
 _STATUS_OF_CODE = {"not_found": 404, "conflict": 409, "unavailable": 503, "no_space": 507}
 _CODE_OF_STATUS = {
     400: "bad_json",
+    401: "token_required",
     403: "forbidden",
     404: "not_found",
     405: "method_not_allowed",

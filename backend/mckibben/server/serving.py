@@ -16,6 +16,7 @@ import logging
 import re
 import sys
 import time
+from pathlib import Path
 from typing import Any
 
 import uvicorn
@@ -43,15 +44,18 @@ _TAKEN_WITHIN = 60.0  # s in which nothing of an answer is taken
 LEVELS = ("critical", "error", "warning", "info", "debug")
 _MOST_ALIKE = 5  # lines of one message in a while
 _WHILE = 10.0  # s
-_TOKEN = re.compile(r"(?<=[?&]token=)[^&\s]*")
+_TOKEN = re.compile(r"(?<=[?&])(token|once)=[^&\s]*")
 
 
-def serving(app: FastAPI, settings: Settings) -> uvicorn.Config:
+def serving(
+    app: FastAPI, settings: Settings, certificate: tuple[Path, Path | None] | None = None
+) -> uvicorn.Config:
     """The configuration of uvicorn.
 
     Args:
         app: the application.
         settings: address and what is written to the terminal.
+        certificate: files of a certificate and of its key (None = in the same file), for HTTPS.
     """
     files = open_files()
     access = not is_loopback(settings.host) if settings.access_log is None else settings.access_log
@@ -65,6 +69,8 @@ def serving(app: FastAPI, settings: Settings) -> uvicorn.Config:
         server_header=False,
         proxy_headers=False,
         timeout_graceful_shutdown=_END_WITHIN,
+        ssl_certfile=certificate and certificate[0],
+        ssl_keyfile=certificate and certificate[1],
         # As many are accepted at once, before one of them is counted.
         backlog=max(_LEAST_ACCEPTED, files // _SHARE_ACCEPTED),
     )
@@ -270,7 +276,7 @@ class WithoutToken(logging.Filter):
         """Always written."""
         if isinstance(record.args, tuple):
             record.args = tuple(
-                _TOKEN.sub("...", item) if isinstance(item, str) else item for item in record.args
+                _TOKEN.sub(r"\1=...", item) if isinstance(item, str) else item for item in record.args
             )
         return True
 

@@ -36,7 +36,9 @@ class Settings:
 
     Attributes:
         host, port: the address it listens on.
-        token: secret that every request must contain; required when ``host`` is not loopback.
+        token: secret that every request must contain; required when ``host`` is not loopback. None where
+            another one decides who may connect, as the file of a Unix socket does.
+        once: secret of a link that works once, in the minutes after the start.
         presets: folder of the built-in presets.
         user_presets: folder of the user's presets, where new ones are saved; None = saving is refused.
         effects: folders with further effect files.
@@ -56,6 +58,7 @@ class Settings:
     host: str = "127.0.0.1"
     port: int = 8000
     token: str | None = None
+    once: str | None = None
     presets: Path = field(default_factory=presets_folder)
     user_presets: Path | None = None
     effects: tuple[Path, ...] = ()

@@ -67,7 +67,9 @@ async function rename(item, name) {
 
 /** @param {number} bytes */
 const sizeOf = (bytes) =>
-  bytes < 1e6
+  !bytes
+    ? "0\u00a0kB"
+    : bytes < 1e6
     ? `${brief(Math.max(bytes / 1e3, 0.1))}\u00a0kB`
     : bytes < 1e9
     ? `${brief(bytes / 1e6)}\u00a0MB`
