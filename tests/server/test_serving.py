@@ -17,7 +17,7 @@ import pytest
 import uvicorn
 
 from mckibben.server.app import TimingMiddleware
-from mckibben.server.serving import GuardedProtocol, Seldom, WithoutToken, connections_for
+from mckibben.server.serving import GuardedProtocol, JsonLines, Seldom, WithoutToken, connections_for
 from tests.running_server import MAIN, RunningServer
 from tests.server.conftest import run_async
 
@@ -236,3 +236,13 @@ def test_a_body_slower_than_the_least_rate_is_ended() -> None:
 
     said = asked(says_ok, drip, body_within=5.0, slow_within=0.2, least_rate=1e4)
     assert said.startswith(b"HTTP/1.1 408 ")
+
+
+def test_lines_of_json_hold_no_query() -> None:
+    arguments = ("127.0.0.1:1", "PUT", "/api/measurements?name=secret.csv&token=secret", "1.1", 200)
+    asked = logging.LogRecord("uvicorn.access", logging.INFO, "", 0, "%s", arguments, None)
+    told = logging.LogRecord("mckibben.server", logging.ERROR, "", 0, "a worker was %s", ("killed",), None)
+    lines = [json.loads(JsonLines().format(record)) for record in (asked, told)]
+    assert lines[0].items() >= {"method": "PUT", "path": "/api/measurements", "status": 200}.items()
+    assert "secret" not in json.dumps(lines[0])
+    assert (lines[1]["level"], lines[1]["message"]) == ("error", "a worker was killed")

@@ -39,6 +39,7 @@ def run(
     certificate: tuple[Path, Path | None] | None,
     insecure: bool,
     log_level: str,
+    log_json: bool,
     access_log: bool | None,
     quota: Sequence[str],
     presets: Path | None,
@@ -91,6 +92,7 @@ def run(
         workers=(os.cpu_count() or 1) if workers is None else workers,
         quotas=quotas,
         log_level=log_level,
+        log_json=log_json,
         access_log=access_log,
     )
     scheme = "http" if certificate is None else "https"

@@ -38,6 +38,13 @@ class LogLevel(StrEnum):
     debug = "debug"
 
 
+class LogFormat(StrEnum):
+    """How it is written."""
+
+    text = "text"
+    json = "json"
+
+
 @app.command()
 def serve(
     host: str = typer.Option(
@@ -79,6 +86,9 @@ def serve(
         help="With --host: send token and data in clear text, which everybody on the way can read.",
     ),
     log_level: Annotated[LogLevel, typer.Option(help="What is written to the terminal.")] = LogLevel.warning,
+    log_format: Annotated[
+        LogFormat, typer.Option(help="How: lines for people, or a JSON object a line, without data or token.")
+    ] = LogFormat.text,
     access_log: bool | None = typer.Option(
         None,
         "--access-log/--no-access-log",
@@ -110,6 +120,7 @@ def serve(
         certificate=None if certfile is None else (certfile, keyfile),
         insecure=insecure,
         log_level=log_level.value,
+        log_json=log_format is LogFormat.json,
         access_log=access_log,
         quota=quota or [],
         presets=presets,

@@ -14,7 +14,7 @@ from fastapi.routing import APIRoute
 from starlette.datastructures import MutableHeaders
 from starlette.middleware.gzip import GZipMiddleware
 from starlette.requests import ClientDisconnect
-from starlette.types import Message, Receive, Scope, Send
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from mckibben.documents.studio import Studio
 from mckibben.measurement.store import MeasurementStore
@@ -22,6 +22,7 @@ from mckibben.report.document import versions
 from mckibben.server import errors, static
 from mckibben.server.errors import error_answer, unexpected_answer
 from mckibben.server.lanes import Lanes
+from mckibben.server.metrics import Requests
 from mckibben.server.routes.curves import curves_router, inverse_router
 from mckibben.server.routes.drives import (
     linearisations_router,
@@ -40,7 +41,13 @@ from mckibben.server.routes.models import (
     reports_router,
 )
 from mckibben.server.routes.presets import order_codes_router, presets_router
-from mckibben.server.routes.program import description_router, facts_router, health_router, help_router
+from mckibben.server.routes.program import (
+    description_router,
+    facts_router,
+    health_router,
+    help_router,
+    metrics_router,
+)
 from mckibben.server.routes.projects import projects_router
 from mckibben.server.security import BodyLimitMiddleware, HttpMiddleware, SecurityMiddleware
 from mckibben.server.settings import Settings
@@ -120,6 +127,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.projects, app.state.opening_projects = None, threading.Lock()
     app.state.studio.library.quota = settings.quotas.presets
     app.state.store = MeasurementStore(settings.data, quotas=settings.quotas)
+    app.state.requests, app.state.in_flight = Requests(), {True: 0, False: 0}
     app.state.scratch = Scratch(app.state.store)
     app.state.workers = Lanes(settings) if settings.workers else None
     app.state.effects = EffectsDocument(app.state.studio.catalogue)
@@ -136,6 +144,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         comparisons_router,
         diagnoses_router,
         health_router,
+        metrics_router,
         facts_router,
         effects_router,
         signatures_router,
@@ -160,9 +169,9 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     errors.install(app, list(dict.fromkeys(route.path_format for route in routes if route.include_in_schema)))
     # The middleware added last is the outermost.
     app.add_middleware(GZipMiddleware, minimum_size=_GZIP_FROM, compresslevel=1)
-    app.add_middleware(BodyLimitMiddleware)
+    app.add_middleware(BodyLimitMiddleware, in_flight=app.state.in_flight)
     app.add_middleware(SecurityMiddleware, settings=settings)
-    app.add_middleware(TimingMiddleware)
+    app.add_middleware(TimingMiddleware, requests=app.state.requests)
     return app
 
 
@@ -181,7 +190,14 @@ def _operation_name(route: APIRoute) -> str:
 
 
 class TimingMiddleware(HttpMiddleware):
-    """``Server-Timing: app;dur=<ms>`` on API answers, no caching unless a route sets it, 500 as JSON."""
+    """``Server-Timing: app;dur=<ms>`` on API answers, no caching unless a route sets it, 500 as JSON.
+
+    Counts each answer, by its route.
+    """
+
+    def __init__(self, app: ASGIApp, *, requests: Requests | None = None) -> None:
+        super().__init__(app)
+        self._requests = requests or Requests()
 
     async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Time one request from its arrival to the first byte of its answer, without waiting for its body."""
@@ -199,10 +215,13 @@ class TimingMiddleware(HttpMiddleware):
             nonlocal started
             if message["type"] == "http.response.start":
                 started = True
+                took = perf_counter() - start - waited
+                route = getattr(scope.get("route"), "path_format", "/api/..." if is_api else "page")
+                self._requests.add(scope["method"], route, message["status"], took)
                 if is_api:
                     headers = MutableHeaders(raw=message["headers"])
                     headers.setdefault("cache-control", "no-store")
-                    headers["server-timing"] = f"app;dur={(perf_counter() - start - waited) * 1e3:.3f}"
+                    headers["server-timing"] = f"app;dur={took * 1e3:.3f}"
             await send(message)
 
         try:

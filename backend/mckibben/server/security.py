@@ -256,9 +256,9 @@ class BodyLimitMiddleware(HttpMiddleware):
     Files arrive on the disk, other bodies in memory; each has its budget of bytes that are in flight.
     """
 
-    def __init__(self, app: ASGIApp) -> None:
+    def __init__(self, app: ASGIApp, *, in_flight: dict[bool, int]) -> None:
         super().__init__(app)
-        self._in_flight = {True: 0, False: 0}
+        self._in_flight = in_flight  # whether they are files -> bytes
 
     async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Pass one request on with its body counted."""

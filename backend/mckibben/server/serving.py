@@ -12,12 +12,16 @@ from __future__ import annotations
 
 import asyncio
 import copy
+import json
 import logging
 import re
 import sys
 import time
+import traceback
+from collections import Counter
+from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import uvicorn
 from fastapi import FastAPI
@@ -61,9 +65,9 @@ def serving(
     access = not is_loopback(settings.host) if settings.access_log is None else settings.access_log
     config = uvicorn.Config(
         app,
-        http=guarded(connections_for(files)),
+        http=guarded(connections_for(files), app.state.requests.refused),
         ws="none",
-        log_config=log_config(settings.log_level),
+        log_config=log_config(settings.log_level, as_json=settings.log_json),
         log_level=settings.log_level,
         access_log=access,
         server_header=False,
@@ -108,6 +112,7 @@ class GuardedProtocol(H11Protocol):
         most: connections at a time.
         headers_within, body_within, taken_within: time for all headers, for the next piece of a body, and for
             a piece of the answer to be taken [s].
+        refused: connections that were ended, by why.
         slow_within, least_rate: time that a whole body may take however slow it is [s], and the mean rate of
             one that takes longer [bytes/s].
     """
@@ -118,6 +123,7 @@ class GuardedProtocol(H11Protocol):
     slow_within = _SLOW_WITHIN
     least_rate = _LEAST_RATE
     taken_within = _TAKEN_WITHIN
+    refused: ClassVar[Counter[str]] = Counter()
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
@@ -163,7 +169,7 @@ class GuardedProtocol(H11Protocol):
         """The other side takes nothing at the moment."""
         super().pause_writing()
         if self._taking is None:
-            self._taking = self.loop.call_later(self.taken_within, self.transport.abort)
+            self._taking = self.loop.call_later(self.taken_within, self._not_taken)
 
     def resume_writing(self) -> None:
         """It takes what is sent again."""
@@ -176,6 +182,10 @@ class GuardedProtocol(H11Protocol):
         self._served = True
         if not self._at_work() and self.conn.trailing_data[0]:
             self._wait(self.headers_within)
+
+    def _not_taken(self) -> None:
+        self.refused["the answer was not taken"] += 1
+        self.transport.abort()
 
     def _stop_taking(self) -> None:
         if self._taking is not None:
@@ -211,6 +221,7 @@ class GuardedProtocol(H11Protocol):
         victim = min(waiting, key=lambda other: other._worth(self._heard))
         self.connections.discard(victim)  # pyright: ignore - a protocol of uvicorn
         victim.transport.abort()
+        self.refused["made room"] += 1
 
     def _worth(self, now: float) -> tuple[int, bool, float]:
         """Of a connection that waits: the smallest is ended first.
@@ -232,13 +243,14 @@ class GuardedProtocol(H11Protocol):
                 b"HTTP/1.1 %s\r\ncontent-type: application/json\r\nconnection: close\r\nretry-after: 1\r\n"
                 b"content-length: %d\r\n\r\n%s" % (status, len(body), body)
             )
+        self.refused[why.decode()] += 1
         self.connections.discard(self)  # pyright: ignore - a protocol of uvicorn
         self.transport.close()
 
 
-def guarded(most: int) -> type[GuardedProtocol]:
-    """The protocol for a server that takes so many connections."""
-    return type("Guarded", (GuardedProtocol,), {"most": most})
+def guarded(most: int, refused: Counter[str]) -> type[GuardedProtocol]:
+    """The protocol for a server that takes so many connections; it counts those that it ends."""
+    return type("Guarded", (GuardedProtocol,), {"most": most, "refused": refused})
 
 
 class Seldom(logging.Filter):
@@ -281,13 +293,40 @@ class WithoutToken(logging.Filter):
         return True
 
 
-def log_config(level: str) -> dict[str, Any]:
+class JsonLines(logging.Formatter):
+    """One JSON object a line: when, how bad, who, what; of a request method, path without its query, status.
+
+    A query may hold names of files and tokens; bodies are never written.
+    """
+
+    def format(self, record: logging.LogRecord) -> str:
+        """The line."""
+        line: dict[str, object] = {
+            "time": datetime.fromtimestamp(record.created, UTC).isoformat(timespec="milliseconds"),
+            "level": record.levelname.lower(),
+            "logger": record.name,
+        }
+        if record.name == "uvicorn.access" and isinstance(record.args, tuple) and len(record.args) == 5:
+            client, method, path, _, status = record.args
+            path = str(path).partition("?")[0]
+            line |= {"client": client, "method": method, "path": path, "status": status}
+        else:
+            line["message"] = record.getMessage()
+        if record.exc_info:
+            line["traceback"] = "".join(traceback.format_exception(*record.exc_info))
+        return json.dumps(line, ensure_ascii=False, default=str)
+
+
+def log_config(level: str, *, as_json: bool = False) -> dict[str, Any]:
     """Configuration of the loggers of the server, for `logging.config.dictConfig`.
 
     Args:
         level: of `LEVELS`.
+        as_json: whether each line is a JSON object.
     """
     config: dict[str, Any] = copy.deepcopy(LOGGING_CONFIG)
+    if as_json:
+        config["formatters"] = {name: {"()": JsonLines} for name in config["formatters"]}
     config["filters"] = {"seldom": {"()": Seldom}, "without_token": {"()": WithoutToken}}
     config["handlers"]["default"]["filters"] = ["seldom"]
     config["handlers"]["access"]["filters"] = ["without_token"]

@@ -52,6 +52,7 @@ class Settings:
         reader_memory: bytes that one that reads files may take.
         quotas: bytes that each kind of what is kept may take on the disk.
         log_level: of what the server writes to the terminal.
+        log_json: whether each line of it is a JSON object.
         access_log: whether it writes a line for each request; None = only when it is reachable from outside.
     """
 
@@ -71,6 +72,7 @@ class Settings:
     reader_memory: int = MOST_MEMORY
     quotas: Quotas = QUOTAS
     log_level: str = "warning"
+    log_json: bool = False
     access_log: bool | None = None
 
     def __post_init__(self) -> None:

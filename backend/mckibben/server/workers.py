@@ -114,6 +114,11 @@ class Workers:
         """Jobs in the workers."""
         return len(self._inside)
 
+    @property
+    def pids(self) -> list[int]:
+        """Of its processes."""
+        return [process.pid for process in self._processes if process.pid is not None]
+
     def start(self) -> None:
         """Start the processes, so that the first job need not wait for them. Later calls do nothing."""
         if self._loop is None:
