@@ -19,7 +19,6 @@ from typing import IO
 from mckibben.physics.errors import InputError
 
 DELETED = ".deleted"
-KEPT_DELETED = 30 * 86_400.0  # s that a deleted file can be restored
 _WITHIN = 10.0  # s for another program to be done
 _AGAIN = 0.01  # s
 

@@ -137,18 +137,25 @@ def test_the_bin_gives_back(store: ProjectStore) -> None:
     assert store.list(deleted=True) == []
 
 
-def test_the_bin_is_emptied_after_thirty_days(store: ProjectStore, monkeypatch: pytest.MonkeyPatch) -> None:
-    now = [1_000_000_000_000]
+@pytest.mark.parametrize("jump", [-20, 20])
+def test_a_clock_that_jumps_by_years_ends_nothing(
+    store: ProjectStore, monkeypatch: pytest.MonkeyPatch, jump: int
+) -> None:
+    now = [1_600_000_000_000]
     monkeypatch.setattr(module, "_now", lambda: now[0])
-    old = store.create(DOCUMENT, title="old", files=[FILE]).summary.id
-    store.delete(old)
-    now[0] += 29 * 86_400_000
+    binned = store.create(DOCUMENT, title="old", files=[FILE]).summary.id
+    store.delete(binned)
+    identity = store.create({}, title="Lift").summary.id
+    store.save(identity, {"step": 1}, base_version=1, studies=[TABLE])
+    now[0] += jump * 365 * 86_400_000
     store.create({}, title="new")
-    assert len(store.list(deleted=True)) == 1
-    now[0] += 2 * 86_400_000
-    kept = store.create({}, title="newer", files=[FILE]).summary.id
-    assert store.list(deleted=True) == []
-    assert list(store.files(kept)) == [FILE], "a content that another project needs stays"
+    later = StoredStudy("c" * 32, "b" * 64, 1, b"head\none\n")
+    store.save(identity, {"step": 2}, base_version=2, automatic=True, studies=[later])
+    assert store.open(identity).document == {"step": 2}
+    assert [each.version for each in store.history(identity)] == [3, 2, 1]
+    assert store.studies(identity) == [later, TABLE]
+    assert [each.id for each in store.list(deleted=True)] == [binned]
+    assert store.restore(binned).files == 1
 
 
 def test_a_copy_is_its_own(store: ProjectStore) -> None:

@@ -15,7 +15,6 @@ import os
 import re
 import tempfile
 import threading
-import time
 from collections import OrderedDict
 from collections.abc import Callable, Iterator
 from contextvars import ContextVar
@@ -23,7 +22,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from mckibben.folder import DELETED, KEPT_DELETED, QUOTAS, Quotas, deleted, is_full, locked, no_space, restore
+from mckibben.folder import DELETED, QUOTAS, Quotas, deleted, is_full, locked, no_space, restore
 from mckibben.folder import delete as move_away
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.reading import Correction, read_correction, read_measurement
@@ -32,7 +31,6 @@ from mckibben.physics.errors import InputError
 _ID = re.compile(r"[0-9a-f]{64}")
 _KEPT_IN_MEMORY = 8
 _MOST_IN_MEMORY = 256_000_000  # bytes, of all but the last one
-_STALE = 3600.0  # s; the process of an older temporary file has ended
 MAX_NAME = 200
 
 
@@ -217,7 +215,7 @@ class MeasurementStore:
         return self._known(path)
 
     def delete(self, identity: str, *, erase: bool = False) -> KeptFile:
-        """Delete a stored file; it can be restored until its room is needed, for 30 days at most.
+        """Delete a stored file; it can be restored until its room is needed.
 
         Args:
             identity: of the measurement.
@@ -236,7 +234,6 @@ class MeasurementStore:
                 self._drop(file.content)
             else:
                 move_away(place)
-                self._forget(lambda old: time.time() - old.stat().st_mtime > KEPT_DELETED)
         with self._lock:
             self._recent.pop(identity, None)
         return file
@@ -427,11 +424,9 @@ def _about(path: Path) -> dict[str, Any]:
 
 
 def _remove_stale(folder: Path) -> None:
-    """Remove old temporary files of processes that were killed."""
+    """Remove temporary files of processes that were killed: whoever writes keeps the folder locked."""
     for path in folder.glob(".*.tmp"):
-        with contextlib.suppress(OSError):
-            if time.time() - path.stat().st_mtime > _STALE:
-                path.unlink()
+        path.unlink(missing_ok=True)
 
 
 def _write(path: Path, content: bytes) -> None:

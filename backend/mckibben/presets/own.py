@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import time
 from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple
 
-from mckibben.folder import DELETED, KEPT_DELETED, delete, deleted, restore, size_of_deleted
+from mckibben.folder import DELETED, delete, deleted, restore, size_of_deleted
 from mckibben.physics.errors import InputError
 from mckibben.presets.library import PresetLibrary, write, written
 from mckibben.presets.reading import KINDS, BadDocumentError, parse, slug
@@ -86,7 +85,7 @@ class OwnPresets:
                     path.unlink(missing_ok=True)
 
     def delete(self, kind: str, preset_id: str, *, erase: bool = False) -> None:
-        """Delete a preset of the user; it can be restored for 30 days.
+        """Delete a preset of the user; it can be restored until its room is needed.
 
         Args:
             kind, preset_id: of the preset.
@@ -106,8 +105,8 @@ class OwnPresets:
                 path.unlink()
                 return
             delete(path)
-            for old in deleted(path.parent):
-                if time.time() - old.stat().st_mtime > KEPT_DELETED:
+            for old in reversed(deleted(path.parent)):
+                if self.size()[0] > self._library.quota:
                     old.unlink(missing_ok=True)
 
     def restore(self, kind: str, preset_id: str) -> None:

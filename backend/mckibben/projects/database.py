@@ -22,6 +22,7 @@ from mckibben.physics.errors import InputError
 
 _WAIT = 10.0  # s; until a lock of another process is given up
 _CONNECT = 2  # s; until a database that does not answer is given up
+_AGAIN = 1.0  # s after which a database that did not answer is asked again
 _FULL_SQLITE = {sqlite3.SQLITE_FULL, sqlite3.SQLITE_IOERR_WRITE}
 _FULL_POSTGRES = "53100"  # disk_full
 _INCREMENTAL = 2  # auto_vacuum of SQLite: space is given back when asked for
@@ -60,6 +61,7 @@ class Database:
         )
         self._ready = threading.Lock()
         self._migrated = False
+        self._away: float | None = None  # when it did not answer last
         if self._file:
             event.listen(self._engine, "connect", _open_sqlite)
             event.listen(self._engine, "begin", _begin_sqlite)
@@ -140,6 +142,8 @@ class Database:
         try:
             if self._migrated:
                 return
+            if self._away is not None and time.monotonic() - self._away < _AGAIN:
+                raise self._unreachable("it did not a moment ago")
             if self._file:
                 self._file.parent.mkdir(parents=True, exist_ok=True)
             with self._engine.connect().execution_options(writes=True) as connection, connection.begin():
@@ -170,6 +174,7 @@ class Database:
                 code="no_space",
             )
         if not self._file and isinstance(error, OperationalError | PoolTimeoutError):
+            self._away = time.monotonic()
             return self._unreachable(words)
         return InputError(
             f"the projects cannot be read or written: {words}",

@@ -41,7 +41,6 @@ from mckibben.projects.tables import ContentRow, FileRow, ProjectRow, RevisionRo
 _MERGED = 300_000  # ms; automatic saves in the same span of this length are one revision
 
 _MOST_REVISIONS = 200  # of a project; the oldest automatic ones give way first
-_BIN = 30 * 86_400_000  # ms that a deleted project can be restored
 _MOST_LABEL = 200
 _MOST_STUDIES, _MOST_STUDY_BYTES = 8, 40_000_000  # of a project; those saved first give way
 
@@ -90,7 +89,6 @@ class ProjectStore:
         text, title, notes = _text_of(document), checked_title(title), checked_notes(notes)
         identity, now = uuid4().hex, _now()
         with self._writing(len(text)) as session:
-            empty_bin(session, now)
             session.add(
                 ProjectRow(id=identity, title=title, notes=notes, version=1, created=now, changed=now)
             )
@@ -213,7 +211,7 @@ class ProjectStore:
         )
 
     def delete(self, identity: str) -> ProjectSummary:
-        """Put a project into the bin, from which it can be restored for 30 days."""
+        """Put a project into the bin, from which it can be restored until its room is needed."""
         return self._binned(identity, _now())
 
     def restore(self, identity: str) -> ProjectSummary:
@@ -454,7 +452,9 @@ def _keep_content(session: Session, content: bytes) -> str:
 
 def keep_studies(session: Session, identity: str, studies: Iterable[StoredStudy], now: int) -> None:
     """Store tables of studies, one with at least as many runs instead of an earlier one of the same study."""
-    changed = False
+    # A clock that was set back does not make a table older than those that it replaces.
+    last = select(func.max(StudyRow.saved)).where(StudyRow.project == identity)
+    now, changed = max(now, 1 + (session.scalar(last) or 0)), False
     for study in studies:
         before = session.get(StudyRow, (identity, study.study))
         if before is not None and before.runs >= study.runs:
@@ -492,13 +492,6 @@ def _drop_contents(session: Session) -> None:
     """Erase contents that no project needs any more."""
     unused = [ContentRow.digest.not_in(select(table.digest)) for table in (FileRow, StudyRow)]
     session.execute(delete(ContentRow).where(*unused).execution_options(synchronize_session=False))
-
-
-def empty_bin(session: Session, now: int) -> None:
-    """Erase what has been in the bin for too long."""
-    old = list(session.scalars(select(ProjectRow.id).where(ProjectRow.deleted < now - _BIN)))
-    if old:
-        remove(session, old)
 
 
 def remove(session: Session, identities: Sequence[str]) -> None:

@@ -29,6 +29,7 @@ class Scratch:
     def __init__(self, store: MeasurementStore) -> None:
         self._store = store
         self._folder = store.data / "passing"
+        self._tidied = False
 
     @contextmanager
     def file(self) -> Iterator[tuple[Path, IO[bytes]]]:
@@ -76,9 +77,13 @@ class Scratch:
                 _written(handle, content)
 
     def _opened(self) -> Path:
-        """The folder, without what servers that have ended have left."""
+        """The folder, at first without what servers that have ended have left.
+
+        Not later: where the clock jumps, files of this server would look old.
+        """
         self._folder.mkdir(parents=True, exist_ok=True)
-        for path in self._folder.iterdir():
+        tidied, self._tidied = self._tidied, True
+        for path in () if tidied else self._folder.iterdir():
             with suppress(OSError):
                 if time.time() - path.stat().st_mtime > _STALE:
                     path.unlink()

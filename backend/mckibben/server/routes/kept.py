@@ -73,7 +73,7 @@ def delete_kept(
     space: SpaceDep,
     erase: Annotated[bool, Query(description="For good and now, also what was deleted before.")] = False,
 ) -> JsonAnswer:
-    """Delete a measurement or preset; for 30 days it can be restored, unless its room is needed."""
+    """Delete a measurement or preset; it can be restored until its room is needed."""
     kept.delete(studio, store, kind=kind, identity=identity, erase=erase)
     return JsonAnswer(kept.kept(studio, store, space))
 

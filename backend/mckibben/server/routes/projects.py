@@ -269,7 +269,7 @@ def delete_project(
     projects: ProjectsDep,
     erase: Annotated[bool, Query(description="For good; it has to be in the bin already.")] = False,
 ) -> JsonAnswer:
-    """Put a project into the bin, where it stays for 30 days; or erase it from there."""
+    """Put a project into the bin, where it stays until its room is needed; or erase it from there."""
     return JsonAnswer(_info(projects.erase(project_id) if erase else projects.delete(project_id)))
 
 

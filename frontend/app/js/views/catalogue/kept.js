@@ -240,7 +240,7 @@ export function keptCard() {
           "details",
           null,
           h("summary", null, `Deleted (${all.deleted.length})`),
-          h("p", null, h("small", null, "Can be restored for 30 days, files until their space is needed.")),
+          h("p", null, h("small", null, "Can be restored until their room is needed.")),
           h("ul", { class: "plain" }, ...all.deleted.map(deletedRow)),
         )
         : null,
