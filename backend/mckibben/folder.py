@@ -39,12 +39,14 @@ class Quotas:
         measurements: uploaded files.
         projects: documents with all their versions, the measurements and study tables kept with them.
         studies: rows of studies; those not used for longest go first.
+        diagnoses: finished ones; those not used for longest go first.
         presets: presets of the user.
     """
 
     measurements: int = 4_000_000_000
     projects: int = 4_000_000_000
     studies: int = 500_000_000
+    diagnoses: int = 200_000_000
     presets: int = 100_000_000
 
 

@@ -22,7 +22,7 @@ from typing import Any
 
 import mckibben.server
 from tests.robustness.chaos import Plan, storm
-from tests.robustness.load import DIAGNOSIS, ask, clients, processes
+from tests.robustness.load import DIAGNOSIS, ask, clients, diagnosis, processes
 from tests.running_server import MAIN, RunningServer
 
 LOAD_SECONDS = 10.0
@@ -63,7 +63,7 @@ def diagnosing(server: RunningServer, number: int) -> Iterator[None]:
 
     def again() -> None:
         while not over.is_set():
-            ask(server, "POST", "/api/diagnoses", DIAGNOSIS, within=600.0)
+            ask(server, "POST", "/api/diagnoses", diagnosis(), within=600.0)
 
     threads = [threading.Thread(target=again, daemon=True) for _ in range(number)]
     for thread in threads:

@@ -20,7 +20,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from tests.robustness.hostile import MATLAB, hostile
-from tests.robustness.load import CURVES, DIAGNOSIS, Pace, Watched, ask, clients_apart, workers_of
+from tests.robustness.load import CURVES, DIAGNOSIS, Pace, Watched, ask, clients_apart, diagnosis, workers_of
 from tests.robustness.variants import variants
 from tests.running_server import RunningServer
 
@@ -223,7 +223,7 @@ def _kills(server: RunningServer, plan: Plan, found: Storm, over: threading.Even
 
 def _diagnoses(server: RunningServer, found: Storm, over: threading.Event) -> None:
     while not over.is_set():
-        said = ask(server, "POST", "/api/diagnoses", DIAGNOSIS, within=300.0, events=True)
+        said = ask(server, "POST", "/api/diagnoses", diagnosis(), within=300.0, events=True)
         last = said.body.rpartition(b"event: ")[2].partition(b"\n")[0].strip().decode()
         ended = last in ("done", "error") or said.body.startswith(b'{"error"')
         found.note("diagnoses", f"last event {last!r}", said.status if ended else 0, said.body[-300:])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import itertools
 import json
 import multiprocessing
 import os
@@ -16,7 +17,6 @@ import urllib.request
 import warnings
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from multiprocessing import forkserver
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, get_args
@@ -30,8 +30,9 @@ from mckibben.server.job import Job, LaneName
 from mckibben.server.lane import BusyError
 from mckibben.server.schemas.curves import CurvesRequest
 from mckibben.server.settings import Settings
-from mckibben.server.supervised import Supervised
+from mckibben.server.supervised import Supervised, _fork_server
 from mckibben.server.workers import Ticket, Workers
+from tests.robustness.load import diagnosis
 from tests.running_server import RunningServer, opener
 from tests.server.conftest import CSV, run_async
 
@@ -39,7 +40,14 @@ DIAGNOSIS = {
     "muscle": {"preset": "DMSP-20", "nominal_length": "300 mm"},
     "measurement": "martens-dmsp-20-300",
 }
-QUICK = DIAGNOSIS | {"effects": {}, "noise": 400.0}  # nothing is above it, so nothing is searched
+_asked = itertools.count()
+
+
+def quick() -> dict[str, Any]:
+    """Nothing is above its noise, so nothing is searched; each is another one, or it would be kept."""
+    return DIAGNOSIS | {"effects": {}, "noise": 400.0 + next(_asked)}
+
+
 CURVES = {"muscle": {"preset": "DMSP-20"}}
 UNKNOWN = DIAGNOSIS | {"measurement": "0" * 64}
 TERM = {"custom": {"term": "c*L", "c": 1.0}}
@@ -98,7 +106,7 @@ def until(condition: Any, within: float = 60.0) -> None:
 
 
 def test_an_answer_of_a_worker_is_that_of_the_server_itself(served: RunningServer) -> None:
-    status, text, _ = send(served, "/api/diagnoses", QUICK)
+    status, text, _ = send(served, "/api/diagnoses", quick())
     assert status == 200
     assert json.loads(text)["verdict"]["status"]
     ideal = DIAGNOSIS | {"effects": {}, "noise": 20.0}  # a search of a second instead of five
@@ -114,11 +122,21 @@ def test_an_answer_of_a_worker_is_that_of_the_server_itself(served: RunningServe
     assert send(served, "/api/diagnoses", UNKNOWN, "text/event-stream")[0] == 404
 
 
+def test_a_finished_diagnosis_is_not_computed_again(served: RunningServer) -> None:
+    """Also after a reload of the page and a restart of the server: it is a file of the data folder."""
+    body = quick()
+    first = send(served, "/api/diagnoses", body)[1]
+    kept = list((served.data / "diagnoses").glob("*.json"))
+    assert send(served, "/api/diagnoses", body)[1] == first  # with the times that the first one took
+    assert sorted((served.data / "diagnoses").glob("*.json")) == sorted(kept)
+    assert send(served, "/api/diagnoses", body | {"noise": 300.0})[1] != first
+
+
 def test_a_full_queue_is_told_and_curves_are_answered_meanwhile(served: RunningServer) -> None:
     with ThreadPoolExecutor(24) as threads:
-        answers = [threads.submit(send, served, "/api/diagnoses", QUICK) for _ in range(22)]
+        answers = [threads.submit(send, served, "/api/diagnoses", quick()) for _ in range(22)]
         until(lambda: sum(answer.done() for answer in answers) >= 4)
-        status, text, headers = send(served, "/api/diagnoses", QUICK)
+        status, text, headers = send(served, "/api/diagnoses", quick())
         now = health(served)
         assert now["workers"] == 2
         assert now["running"] <= 2  # a short one may just have ended
@@ -133,9 +151,9 @@ def test_a_full_queue_is_told_and_curves_are_answered_meanwhile(served: RunningS
 
 
 def test_a_killed_worker_takes_its_own_job_alone(served: RunningServer) -> None:
-    assert send(served, "/api/diagnoses", QUICK)[0] == 200
+    assert send(served, "/api/diagnoses", quick())[0] == 200
     with ThreadPoolExecutor(1) as threads:
-        answer = threads.submit(send, served, "/api/diagnoses", DIAGNOSIS)
+        answer = threads.submit(send, served, "/api/diagnoses", diagnosis())
         until(lambda: health(served)["running"] == 1)
         time.sleep(0.2)
         for pid in workers_of(served):
@@ -147,27 +165,29 @@ def test_a_killed_worker_takes_its_own_job_alone(served: RunningServer) -> None:
         assert json.loads(text)["error"]["code"] == "stopped"
         assert "nothing else was affected" in text
     assert send(served, "/api/curves", CURVES)[0] == 200
-    assert send(served, "/api/diagnoses", QUICK)[0] == 200
+    assert send(served, "/api/diagnoses", quick())[0] == 200
 
 
 @pytest.mark.examination("test_a_killed_worker_takes_its_own_job_alone")
 def test_an_idle_worker_that_is_killed_costs_no_job(served: RunningServer) -> None:
-    assert send(served, "/api/diagnoses", QUICK)[0] == 200
+    assert send(served, "/api/diagnoses", quick())[0] == 200
     for pid in workers_of(served):
         with contextlib.suppress(ProcessLookupError):
             os.kill(pid, signal.SIGKILL)
     # The next job may be given away before anybody has noticed.
     assert send(served, "/api/curves", CURVES | {"effects": TERM})[0] == 200
-    assert send(served, "/api/diagnoses", QUICK)[0] == 200
+    assert send(served, "/api/diagnoses", quick())[0] == 200
 
 
 @pytest.mark.examination("test_a_full_queue_is_told_and_curves_are_answered_meanwhile")
 def test_a_typed_term_and_a_file_do_not_wait_for_diagnoses(served: RunningServer) -> None:
-    data = json.dumps(DIAGNOSIS).encode()
     headers = {"content-type": "application/json", "accept": "text/event-stream"}
-    request = urllib.request.Request(served.url + "/api/diagnoses", data, headers)
+    requests = [
+        urllib.request.Request(served.url + "/api/diagnoses", json.dumps(diagnosis()).encode(), headers)
+        for _ in range(4)
+    ]
     with contextlib.ExitStack() as asked:
-        streams = [asked.enter_context(opener().open(request, timeout=60)) for _ in range(4)]
+        streams = [asked.enter_context(opener().open(request, timeout=60)) for request in requests]
         until(lambda: health(served)["waiting"] == 2)
         assert send(served, "/api/curves", CURVES | {"effects": TERM})[0] == 200
         lanes = {lane["name"]: lane for lane in health(served)["lanes"]}
@@ -199,14 +219,14 @@ def test_jobs_that_have_ended_hold_no_descriptors(served: RunningServer) -> None
 
 
 def test_whoever_leaves_frees_the_worker(served: RunningServer) -> None:
-    data = json.dumps(DIAGNOSIS).encode()
+    data = json.dumps(diagnosis()).encode()
     headers = {"content-type": "application/json", "accept": "text/event-stream"}
     for _ in range(3):
         request = urllib.request.Request(served.url + "/api/diagnoses", data, headers)
         with opener().open(request, timeout=60) as answer:
             answer.readline()
     until(lambda: health(served)["running"] == 0, within=10.0)
-    assert send(served, "/api/diagnoses", QUICK)[0] == 200
+    assert send(served, "/api/diagnoses", quick())[0] == 200
 
 
 @pytest.mark.parametrize(
@@ -226,7 +246,7 @@ def test_the_server_ends_under_work_and_leaves_no_process(
         told: list[str] = []
 
         def ask() -> None:
-            told.append(send(server, "/api/diagnoses", DIAGNOSIS, "text/event-stream")[1])
+            told.append(send(server, "/api/diagnoses", diagnosis(), "text/event-stream")[1])
 
         asking = threading.Thread(target=ask)
         asking.start()
@@ -240,6 +260,18 @@ def test_the_server_ends_under_work_and_leaves_no_process(
         until(lambda: not any(Path(f"/proc/{pid}").exists() for pid in pids), within=10.0)
         assert "Traceback" not in server.output
         assert "the server is ending" in told[0]  # as the last event, or as the answer if it had not begun
+
+
+def pid_of(process: Supervised) -> int:
+    assert process.pid
+    return process.pid
+
+
+def stop(pid: int | None) -> None:
+    """Stop a process; on a busy machine its threads go on for a while after the signal."""
+    assert pid
+    os.kill(pid, signal.SIGSTOP)
+    until(lambda: Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] == "T")
 
 
 async def job(workers: Workers, body: CurvesRequest) -> bytes:
@@ -272,19 +304,19 @@ def test_each_kill_is_one_replacement_and_a_stopped_fork_server_is_replaced(
             first = await job(workers, body)
             for number in (1, 2):
                 before = process()
-                os.kill(before.pid or 0, signal.SIGKILL)
+                os.kill(pid_of(before), signal.SIGKILL)
                 await replaced(before)  # without a job that asks for it
                 assert workers.ended == {"killed": number}
             before = process()
-            os.kill(forkserver._forkserver._forkserver_pid or 0, signal.SIGSTOP)
-            os.kill(before.pid or 0, signal.SIGKILL)
+            stop(_fork_server())
+            os.kill(pid_of(before), signal.SIGKILL)
             assert await job(workers, body) == first
             monkeypatch.setattr("mckibben.server.supervised._TAKEN_WITHIN", 0.5)
-            os.kill(process().pid or 0, signal.SIGSTOP)
+            stop(pid_of(process()))
             assert await job(workers, body) == first
             assert workers.ended["silent"] == 1
             # The end does not wait for a fork server that cannot tell how processes end.
-            os.kill(forkserver._forkserver._forkserver_pid or 0, signal.SIGSTOP)
+            stop(_fork_server())
         finally:
             await asyncio.to_thread(workers.close)
 

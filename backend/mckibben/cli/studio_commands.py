@@ -99,7 +99,8 @@ def serve(
         typer.Option(
             metavar="KIND=GB",
             help="How much what is kept may take on the disk: measurements=4, projects=4, studies=0.5, "
-            "presets=0.1 (the defaults); a number alone is that of measurements. May be repeated.",
+            "diagnoses=0.2, presets=0.1 (the defaults); a number alone is that of measurements. "
+            "May be repeated.",
         ),
     ] = None,
     presets: PresetsFolder = None,

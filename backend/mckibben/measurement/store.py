@@ -355,6 +355,11 @@ class MeasurementStore:
         content = str(about.get("content", identity))
         return bool(about and _ID.fullmatch(content)) and (self._folder / f"{content}.data").is_file()
 
+    def name_of(self, identity: str) -> str:
+        """How a stored file is called; empty if there is none."""
+        about = _about(self._folder / f"{identity}.json") if _ID.fullmatch(identity) else {}
+        return clean_name(str(about["name"])) if "name" in about else ""
+
     def original(self, identity: str) -> tuple[str, bytes, str | None] | None:
         """Name, content and mapping of a stored measurement, as uploaded; None if there is none."""
         if not _ID.fullmatch(identity):

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from fastapi import Depends, Request
 
+from mckibben.application.diagnose.kept import DiagnosisStore
 from mckibben.application.project.stored import Space
 from mckibben.application.study.store import StudyStore
 from mckibben.documents.studio import Studio
@@ -47,7 +48,8 @@ async def _studies(request: Request) -> StudyStore:
 
 async def _space(request: Request) -> Space:
     state = request.app.state
-    return Space(state.studio, state.store, await _studies(request), lambda: _projects(request))
+    diagnoses = DiagnosisStore(state.store.data, quota=state.store.quotas.diagnoses)
+    return Space(state.studio, state.store, await _studies(request), diagnoses, lambda: _projects(request))
 
 
 async def _start_workers(request: Request) -> None:

@@ -222,7 +222,8 @@ class Workers:
                     raise self._stopped(kind) from None
                 if error.reason == "deadline":
                     raise InputError(
-                        f"the {kind} took more than {JOBS[kind].time_limit:g} s of work and was ended",
+                        f"the {kind} took more than {JOBS[kind].time_limit:g} s of processor time "
+                        "and was ended",
                         hint=JOBS[kind].hint,
                         code="stopped",
                     ) from None
@@ -287,7 +288,7 @@ class Workers:
             self.ended[process.reason] += 1
             self._failed = 0 if process.ready else self._failed + 1
             if process.reason != "renewed" and not self.ending:
-                log.error("a worker was %s and is replaced", process.reason)
+                log.error("a worker has ended (%s) and is replaced", process.reason)
             if self._failed >= _MOST_FAILED:
                 while self._wanting:
                     self._wanting.popleft().set_exception(_no_process())

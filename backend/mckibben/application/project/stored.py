@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, TypeVar, cast
 
+from mckibben.application.diagnose.kept import DiagnosisStore
 from mckibben.application.study.store import StudyStore
 from mckibben.documents.studio import Studio
 from mckibben.facts.result import result_class
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from mckibben.projects.store import ProjectStore
 
 T = TypeVar("T")
-SpaceKind = Literal["measurements", "projects", "studies", "presets"]
+SpaceKind = Literal["measurements", "projects", "studies", "diagnoses", "presets"]
 KeptKind = Literal[
     "files", "muscles", "valves", "tubes", "fittings", "measurements", "curves", "designs", "drives", "tasks"
 ]  # fmt: skip
@@ -53,7 +54,7 @@ class KeptSpace:
     """What one kind of what is kept takes on the disk."""
 
     kind: SpaceKind
-    """'measurements', 'projects' with all versions, rows of 'studies', or 'presets' of the user."""
+    """'measurements', 'projects' with all versions, 'presets'; 'studies' and 'diagnoses' are results."""
     taken: int
     """Bytes, with what can be restored."""
     restorable: int
@@ -83,13 +84,14 @@ class Space:
     Attributes:
         studio: for the presets.
         store: of the measurements.
-        studies: their rows.
+        studies, diagnoses: rows and answers that can be made again.
         projects: opens their database.
     """
 
     studio: Studio
     store: MeasurementStore
     studies: StudyStore
+    diagnoses: DiagnosisStore
     projects: Callable[[], ProjectStore]
 
     def ledger(self) -> list[KeptSpace]:
@@ -99,7 +101,11 @@ class Space:
             KeptSpace(
                 "measurements", self.store.size(), self.store.restorable(), self.store.quotas.measurements
             ),
-            KeptSpace("studies", self.studies.size(), self.studies.size(), self.studies.quota),
+            *(
+                KeptSpace(kind, size, size, store.quota)
+                for kind, store in self._made_again().items()
+                for size in [store.size()]
+            ),
             KeptSpace("presets", *presets, self.studio.library.quota),
         ]
         try:
@@ -109,14 +115,17 @@ class Space:
             pass
         return found
 
+    def _made_again(self) -> dict[SpaceKind, StudyStore | DiagnosisStore]:
+        return {"studies": self.studies, "diagnoses": self.diagnoses}
+
     def erase(self, kind: SpaceKind) -> None:
-        """Erase what was deleted of a kind; the rows of all studies, which are made again when needed."""
+        """Erase what was deleted of a kind; all studies or diagnoses, which are made again when needed."""
         if kind == "measurements":
             self.store.empty_bin()
         elif kind == "presets":
             OwnPresets(self.studio.library).empty_bin()
-        elif kind == "studies":
-            self.studies.erase()
+        elif kind in self._made_again():
+            self._made_again()[kind].erase()
         else:
             self.projects().empty_bin()
 

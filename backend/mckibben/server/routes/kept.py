@@ -85,7 +85,7 @@ def erase_deleted(
     store: StoreDep,
     space: SpaceDep,
 ) -> JsonAnswer:
-    """Erase what was deleted of a kind now; of studies all rows, which are made again when needed."""
+    """Erase what was deleted of a kind now; results of studies and diagnoses are made again when needed."""
     space.erase(kind)
     return JsonAnswer(kept.kept(studio, store, space))
 

@@ -165,6 +165,7 @@ const SPACE = {
   measurements: ["Measurements", "deleted"],
   projects: ["Projects with all versions", "deleted"],
   studies: ["Rows of studies", "made again when needed"],
+  diagnoses: ["Finished diagnoses", "made again when needed"],
   presets: ["Presets", "deleted"],
 };
 
