@@ -20,12 +20,23 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from tests.robustness.hostile import MATLAB, hostile
-from tests.robustness.load import CURVES, DIAGNOSIS, Pace, Watched, ask, clients_apart, diagnosis, workers_of
+from tests.robustness.load import (
+    CURVES,
+    DIAGNOSIS,
+    Pace,
+    Watched,
+    ask,
+    clients_apart,
+    diagnosis,
+    metrics,
+    processes,
+    workers_of,
+)
 from tests.robustness.variants import variants
 from tests.running_server import RunningServer
 
 #: What a server may answer: never a 5xx, never nothing. A worker that is killed costs a 422 of its own job.
-ALLOWED = {200, 400, 404, 409, 413, 415, 422, 429}
+ALLOWED = {200, 400, 404, 409, 413, 415, 422, 429, 507}
 HALVES = (
     b"GET / HTTP/1.1\r\nHost: 127.0.0.1\r\n",
     b"POST /api/curves HTTP/1.1\r\nHost: 127.0.0.1\r\ncontent-type: application/json\r\n"
@@ -72,6 +83,8 @@ class Storm:
         acknowledged: ids of the files that the server said it keeps.
         lost: those that it does not have afterwards.
         killed: workers.
+        replaced: workers that the server says were killed and replaced.
+        left: processes of the server that live on after its end.
         curves: of the clients.
         watch: health and memory.
         ended: seconds from SIGTERM to the end of the process.
@@ -84,6 +97,8 @@ class Storm:
     acknowledged: set[str] = field(default_factory=set)
     lost: set[str] = field(default_factory=set)
     killed: int = 0
+    replaced: int = 0
+    left: int = 0
     curves: Pace = field(default_factory=Pace)
     watch: Watched = field(default_factory=Watched)
     ended: float = 0.0
@@ -146,12 +161,17 @@ def storm(server: RunningServer, plan: Plan) -> Storm:
     for identity in found.acknowledged:
         if ask(server, "GET", f"/api/measurements/{identity}").status != 200:
             found.lost.add(identity)
+    told = metrics(server)
+    found.replaced = round(sum(told[name] for name in told if "ended_total{" in name and '"killed"' in name))
+    everyone = processes(server)
     begin = time.monotonic()
     server.send_signal(signal.SIGTERM)
     server.wait(30.0)
     found.ended = time.monotonic() - begin
     for thread in running:
         thread.join()
+    time.sleep(1.0)
+    found.left = sum(os.path.exists(f"/proc/{pid}") for pid in everyone)
     found.traceback = "Traceback" in server.output
     found.lines = len(server.output.splitlines())
     return found

@@ -159,6 +159,21 @@ def clients(server: Server, number: int, seconds: float, every: float = 1.0) -> 
     return pace
 
 
+def metrics(server: Server) -> dict[str, float]:
+    """What a server says of itself: name with labels -> value."""
+    lines = ask(server, "GET", "/metrics").body.decode().splitlines()
+    return {
+        name: float(value) for name, _, value in (line.rpartition(" ") for line in lines if line[0] != "#")
+    }
+
+
+def descriptors(server: Server) -> int:
+    """Files and connections that the server itself has open; 0 where /proc does not tell."""
+    with contextlib.suppress(OSError):
+        return len(list(Path(f"/proc/{server.pid}/fd").iterdir()))
+    return 0
+
+
 def processes(server: Server) -> dict[int, int]:
     """The processes of a server with what each has in memory [bytes]; those of Linux alone."""
     parents: dict[int, tuple[int, int]] = {}
@@ -192,12 +207,14 @@ class Watched:
         unhealthy: what came instead of an answer.
         largest: most that one process had in memory [bytes].
         own: most that the server itself had [bytes].
+        descriptors: most that it had open.
     """
 
     health: list[float] = field(default_factory=list)
     unhealthy: list[int] = field(default_factory=list)
     largest: int = 0
     own: int = 0
+    descriptors: int = 0
 
 
 @contextmanager
@@ -211,6 +228,7 @@ def watched(server: Server, every: float = 0.25) -> Iterator[Watched]:
             (found.health.append(said.seconds) if said.status == 200 else found.unhealthy.append(said.status))
             memory = processes(server)
             found.own = max(found.own, memory.get(server.pid, 0))
+            found.descriptors = max(found.descriptors, descriptors(server))
             found.largest = max(found.largest, *memory.values(), 0)
 
     thread = threading.Thread(target=look)

@@ -284,35 +284,48 @@ async def job(workers: Workers, body: CurvesRequest) -> bytes:
     return await workers.result(running)
 
 
-def test_each_kill_is_one_replacement_and_a_stopped_fork_server_is_replaced(
-    tmp_path: Path, compiled_kernels: None, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Also processes that are stopped, which say nothing and do not end by themselves."""
-    body = CurvesRequest.model_validate(CURVES)
-    workers = Workers(Settings(workers=1, data=tmp_path))
-    monkeypatch.setattr("mckibben.server.supervised._MADE_WITHIN", 1.0)
+async def replaced(workers: Workers, before: Supervised) -> None:
+    while not (workers._processes and workers._processes[0] is not before and workers._processes[0].ready):
+        await asyncio.sleep(0.02)
 
-    def process() -> Supervised:
-        return workers._processes[0]
 
-    async def replaced(before: Supervised) -> None:
-        while not (workers._processes and process() is not before and process().ready):
-            await asyncio.sleep(0.02)
+def test_each_kill_is_one_replacement(tmp_path: Path, compiled_kernels: None) -> None:
+    """At the moment of the death, without a job that asks for it."""
+    body, workers = CurvesRequest.model_validate(CURVES), Workers(Settings(workers=1, data=tmp_path))
 
     async def run() -> None:
         try:
             first = await job(workers, body)
             for number in (1, 2):
-                before = process()
+                before = workers._processes[0]
                 os.kill(pid_of(before), signal.SIGKILL)
-                await replaced(before)  # without a job that asks for it
+                await replaced(workers, before)
                 assert workers.ended == {"killed": number}
-            before = process()
+            assert await job(workers, body) == first
+        finally:
+            await asyncio.to_thread(workers.close)
+
+    run_async(run())
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="sees by /proc whether a process is stopped")
+@pytest.mark.examination("test_each_kill_is_one_replacement")
+def test_stopped_processes_are_replaced(
+    tmp_path: Path, compiled_kernels: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The fork server, and a worker: they say nothing and do not end by themselves."""
+    body, workers = CurvesRequest.model_validate(CURVES), Workers(Settings(workers=1, data=tmp_path))
+    monkeypatch.setattr("mckibben.server.supervised._MADE_WITHIN", 1.0)
+
+    async def run() -> None:
+        try:
+            first = await job(workers, body)
+            before = workers._processes[0]
             stop(_fork_server())
             os.kill(pid_of(before), signal.SIGKILL)
             assert await job(workers, body) == first
             monkeypatch.setattr("mckibben.server.supervised._TAKEN_WITHIN", 0.5)
-            stop(pid_of(process()))
+            stop(pid_of(workers._processes[0]))
             assert await job(workers, body) == first
             assert workers.ended["silent"] == 1
             # The end does not wait for a fork server that cannot tell how processes end.

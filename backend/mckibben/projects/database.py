@@ -57,7 +57,8 @@ class Database:
             url,
             connect_args={"timeout": _WAIT} if self._file else _PATIENCE,
             pool_pre_ping=not self._file,
-            **({} if self._file else {"pool_timeout": _CONNECT}),
+            # A connection of SQLite keeps the last content that it wrote: one may, the others are closed.
+            **({"pool_size": 1} if self._file else {"pool_timeout": _CONNECT}),
         )
         self._ready = threading.Lock()
         self._migrated = False
