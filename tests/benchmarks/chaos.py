@@ -200,9 +200,8 @@ def away() -> None:
             settings = f"-c listen_addresses='' -c unix_socket_directories={folder} -c fsync=off"
             _as_user([*control, "-o", settings, "-l", f"{folder}/log", "start"])
             said = ask(server, "GET", "/api/projects")
-            _say(
-                f"  started: {said.status} in {said.seconds:.2f} s, {len(json.loads(said.body)['projects'])} project"
-            )
+            back = len(json.loads(said.body)["projects"])
+            _say(f"  started: {said.status} in {said.seconds:.2f} s, {back} project")
     finally:
         next(own, None)
 
