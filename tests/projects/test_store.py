@@ -13,7 +13,7 @@ from sqlalchemy import select
 from mckibben.physics.errors import InputError
 from mckibben.projects import store as module
 from mckibben.projects.database import Database
-from mckibben.projects.project import ChangedElsewhereError, Revision, StoredFile, StoredStudy
+from mckibben.projects.project import ChangedElsewhereError, Revision, StoredAnswer, StoredFile, StoredStudy
 from mckibben.projects.store import ProjectStore
 from mckibben.projects.tables import ContentRow
 
@@ -245,6 +245,20 @@ def test_a_longer_table_of_the_same_study_replaces_it(store: ProjectStore) -> No
     with store._database.session() as session:
         contents = session.scalars(select(ContentRow.data)).all()
     assert contents == [longer.content], "what nobody needs is not kept"
+
+
+def test_finished_diagnoses_stay_with_their_project(
+    store: ProjectStore, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first, second, third = (StoredAnswer(name * 64, b"[]\n" + name.encode()) for name in "abc")
+    identity = store.create(DOCUMENT, title="Lift", answers=[first]).summary.id
+    store.save(identity, {}, base_version=1, answers=[first, second])
+    assert list(store.answers(identity)) == [first, second]
+    assert list(store.answers(identity, {first.name})) == [second]
+    assert list(store.answers(store.duplicate(identity).summary.id)) == [first, second]
+    monkeypatch.setattr(module, "_MOST_ANSWERS", 1)
+    store.save(identity, {}, base_version=2, answers=[third])
+    assert list(store.answers(identity)) == [third]
 
 
 def test_study_tables_saved_first_give_way(store: ProjectStore, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -170,8 +170,10 @@ def storm(server: RunningServer, plan: Plan) -> Storm:
     found.ended = time.monotonic() - begin
     for thread in running:
         thread.join()
-    time.sleep(1.0)
-    found.left = sum(os.path.exists(f"/proc/{pid}") for pid in everyone)
+    last = time.monotonic() + 10.0
+    while (left := [pid for pid in everyone if os.path.exists(f"/proc/{pid}")]) and time.monotonic() < last:
+        time.sleep(0.1)
+    found.left = len(left)
     found.traceback = "Traceback" in server.output
     found.lines = len(server.output.splitlines())
     return found

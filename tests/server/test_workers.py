@@ -130,6 +130,13 @@ def test_a_finished_diagnosis_is_not_computed_again(served: RunningServer) -> No
     assert send(served, "/api/diagnoses", body)[1] == first  # with the times that the first one took
     assert sorted((served.data / "diagnoses").glob("*.json")) == sorted(kept)
     assert send(served, "/api/diagnoses", body | {"noise": 300.0})[1] != first
+    # A project keeps what is about its measurements, and brings it back where it is opened.
+    project = {"title": "Lift", "document": {"cases": [{"measurement": DIAGNOSIS["measurement"]}]}}
+    identity = json.loads(send(served, "/api/projects", project)[1])["project"]["id"]
+    for path in (served.data / "diagnoses").glob("*.json"):
+        path.unlink()
+    assert send(served, f"/api/projects/{identity}", None)[0] == 200
+    assert send(served, "/api/diagnoses", body)[1] == first
 
 
 def test_a_full_queue_is_told_and_curves_are_answered_meanwhile(served: RunningServer) -> None:

@@ -11,7 +11,7 @@ import contextlib
 import hashlib
 import json
 import time
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from typing import Any
 from uuid import uuid4
 
@@ -29,6 +29,7 @@ from mckibben.projects.project import (
     Project,
     ProjectSummary,
     Revision,
+    StoredAnswer,
     StoredFile,
     StoredStudy,
     checked_history,
@@ -36,13 +37,14 @@ from mckibben.projects.project import (
     checked_title,
     is_version,
 )
-from mckibben.projects.tables import ContentRow, FileRow, ProjectRow, RevisionRow, StudyRow
+from mckibben.projects.tables import AnswerRow, ContentRow, FileRow, ProjectRow, RevisionRow, StudyRow
 
 _MERGED = 300_000  # ms; automatic saves in the same span of this length are one revision
 
 _MOST_REVISIONS = 200  # of a project; the oldest automatic ones give way first
 _MOST_LABEL = 200
 _MOST_STUDIES, _MOST_STUDY_BYTES = 8, 40_000_000  # of a project; those saved first give way
+_MOST_ANSWERS, _MOST_ANSWER_BYTES = 32, 40_000_000  # of a project; those saved first give way
 
 
 class ProjectStore:
@@ -83,6 +85,7 @@ class ProjectStore:
         notes: str = "",
         files: Iterable[StoredFile] = (),
         studies: Iterable[StoredStudy] = (),
+        answers: Iterable[StoredAnswer] = (),
         label: str = "created",
     ) -> Project:
         """A new project with its first revision."""
@@ -96,6 +99,7 @@ class ProjectStore:
             add_revision(session, identity, 1, now, label, automatic=False, text=text)
             keep_files(session, identity, files)
             keep_studies(session, identity, studies, now)
+            keep_answers(session, identity, answers, now)
             return opened(session, identity)
 
     def open(self, identity: str, version: int | None = None) -> Project:
@@ -117,6 +121,21 @@ class ProjectStore:
                     continue
                 file = StoredFile(row.measurement, row.name, content.data, row.mapping)
             yield file
+
+    def answers(self, identity: str, known: Collection[str] = ()) -> Iterator[StoredAnswer]:
+        """The finished diagnoses of a project, without known ones, one after the other."""
+        for name in sorted(self.answer_names(identity) - set(known)):
+            with self._database.session() as session:
+                row = session.get(AnswerRow, (identity, name))
+                content = None if row is None else session.get(ContentRow, row.digest)
+                data = None if content is None else content.data
+            if data is not None:
+                yield StoredAnswer(name, data)
+
+    def answer_names(self, identity: str) -> set[str]:
+        """Names of the finished diagnoses kept with a project; none of a project that is not there."""
+        with self._database.session() as session:
+            return set(session.scalars(select(AnswerRow.name).where(AnswerRow.project == identity)))
 
     def measurements(self, identity: str) -> set[str]:
         """Ids of the measurements kept with a project; none of a project that is not there."""
@@ -143,6 +162,7 @@ class ProjectStore:
         base_version: int,
         files: Iterable[StoredFile] = (),
         studies: Iterable[StoredStudy] = (),
+        answers: Iterable[StoredAnswer] = (),
         label: str = "saved",
         automatic: bool = False,
     ) -> Project:
@@ -154,7 +174,8 @@ class ProjectStore:
             base_version: version that the document was made from.
             files: all its measurements; those that are no longer named stay as long as an earlier revision
                 may name them.
-            studies: tables of studies to be kept with it; those kept before stay.
+            studies, answers: tables of studies and finished diagnoses to be kept with it; those kept before
+                stay.
             label: what was done.
             automatic: whether the program saves by itself; such revisions replace each other for some
                 minutes.
@@ -172,6 +193,7 @@ class ProjectStore:
             thin(session, identity)
             keep_files(session, identity, files)
             keep_studies(session, identity, studies, now)
+            keep_answers(session, identity, answers, now)
             return opened(session, identity)
 
     def describe(
@@ -207,6 +229,7 @@ class ProjectStore:
             notes=project.summary.notes,
             files=self.files(identity),
             studies=self.studies(identity),
+            answers=self.answers(identity),
             label=f"copy of version {project.revision.version}",
         )
 
@@ -468,35 +491,51 @@ def keep_studies(session: Session, identity: str, studies: Iterable[StoredStudy]
         )  # fmt: skip
         session.flush()
     if changed:
-        _limit_studies(session, identity)
+        _limit(session, identity, StudyRow, _MOST_STUDIES, _MOST_STUDY_BYTES)
         _drop_contents(session)
 
 
-def _limit_studies(session: Session, identity: str) -> None:
-    """Remove the study tables that were saved first beyond what a project keeps."""
+def keep_answers(session: Session, identity: str, answers: Iterable[StoredAnswer], now: int) -> None:
+    """Store the finished diagnoses that a project does not have yet."""
+    last = select(func.max(AnswerRow.saved)).where(AnswerRow.project == identity)
+    now, changed = max(now, 1 + (session.scalar(last) or 0)), False
+    for answer in answers:
+        if session.get(AnswerRow, (identity, answer.name)) is None:
+            digest, changed = _keep_content(session, answer.content), True
+            session.add(AnswerRow(project=identity, name=answer.name, saved=now, digest=digest))
+            session.flush()
+    if changed:
+        _limit(session, identity, AnswerRow, _MOST_ANSWERS, _MOST_ANSWER_BYTES)
+        _drop_contents(session)
+
+
+def _limit(
+    session: Session, identity: str, table: type[StudyRow | AnswerRow], most: int, most_bytes: int
+) -> None:
+    """Remove results that were saved first beyond what a project keeps."""
     rows = session.execute(
-        select(StudyRow, func.length(ContentRow.data))
-        .join(ContentRow, ContentRow.digest == StudyRow.digest)
-        .where(StudyRow.project == identity)
-        .order_by(StudyRow.saved.desc(), StudyRow.study)
+        select(table, func.length(ContentRow.data))
+        .join(ContentRow, ContentRow.digest == table.digest)
+        .where(table.project == identity)
+        .order_by(table.saved.desc(), table.digest)
     ).all()
     total = 0
     for number, (row, size) in enumerate(rows):
         total += size
-        if number and (number >= _MOST_STUDIES or total > _MOST_STUDY_BYTES):
+        if number and (number >= most or total > most_bytes):
             session.delete(row)
     session.flush()
 
 
 def _drop_contents(session: Session) -> None:
     """Erase contents that no project needs any more."""
-    unused = [ContentRow.digest.not_in(select(table.digest)) for table in (FileRow, StudyRow)]
+    unused = [ContentRow.digest.not_in(select(table.digest)) for table in (FileRow, StudyRow, AnswerRow)]
     session.execute(delete(ContentRow).where(*unused).execution_options(synchronize_session=False))
 
 
 def remove(session: Session, identities: Sequence[str]) -> None:
     """Erase projects, and contents that no project needs any more."""
-    for table in (FileRow, StudyRow, RevisionRow):
+    for table in (FileRow, StudyRow, AnswerRow, RevisionRow):
         session.execute(delete(table).where(table.project.in_(identities)))
     session.execute(delete(ProjectRow).where(ProjectRow.id.in_(identities)))
     _drop_contents(session)
@@ -536,14 +575,14 @@ def revision_of(row: RevisionRow) -> Revision:
 
 def summary_of(session: Session, row: ProjectRow) -> ProjectSummary:
     """A row as a project in a list."""
-    (files, size), (_, tables) = (
+    (files, size), (_, tables), (_, answers) = (
         session.execute(
             select(func.count(), func.coalesce(func.sum(func.length(ContentRow.data)), 0))
             .select_from(table)
             .join(ContentRow, ContentRow.digest == table.digest)
             .where(table.project == row.id)
         ).one()
-        for table in (FileRow, StudyRow)
+        for table in (FileRow, StudyRow, AnswerRow)
     )
     document = session.scalar(
         select(func.length(RevisionRow.document)).where(
@@ -559,5 +598,5 @@ def summary_of(session: Session, row: ProjectRow) -> ProjectSummary:
         changed=row.changed / 1e3,
         deleted=None if row.deleted is None else row.deleted / 1e3,
         files=int(files),
-        size=int(size) + int(tables) + int(document or 0),
+        size=int(size) + int(tables) + int(answers) + int(document or 0),
     )

@@ -80,8 +80,8 @@ _STUDY_LIMIT = 900.0  # s
 def _diagnosis(body: DiagnosisRequest, studio: Studio, store: MeasurementStore) -> Prepared:
     question = model_question(body, studio, store)
     work, kept = diagnose.prepare(question, studio), DiagnosisStore(store.data, quota=store.quotas.diagnoses)
-    names = [store.name_of(item.id) for item in body.chosen()]
-    name = kept.name(body.model_dump_json(), names, studio)
+    ids = [item.id for item in body.chosen()]
+    name = kept.name(body.model_dump_json(), map(store.name_of, ids), studio)
 
     def diagnosed(watch: Watch) -> bytes:
         before = kept.answer(name)
@@ -90,7 +90,7 @@ def _diagnosis(body: DiagnosisRequest, studio: Studio, store: MeasurementStore) 
         result = work(watch)
         answer = answer_of(result)
         if result.verdict.status != "unfinished":
-            kept.keep(name, answer)
+            kept.keep(name, ids, answer)
         return answer
 
     return diagnosed

@@ -56,6 +56,22 @@ def _identities(part: Any) -> Iterator[str]:
             yield from _identities(value)
 
 
+def texts_in(document: Any) -> set[str]:
+    """All texts of a document that may be ids of measurements or presets."""
+    found: set[str] = set()
+    waiting = [document]
+    while waiting:
+        part = waiting.pop()
+        if isinstance(part, str):
+            if len(part) <= 64:
+                found.add(part)
+        elif isinstance(part, Mapping):
+            waiting += [*part.keys(), *part.values()]
+        elif isinstance(part, list | tuple):
+            waiting += part
+    return found
+
+
 def files_of(
     document: Document, measurements: MeasurementStore, known: Collection[str] = ()
 ) -> Iterator[StoredFile]:

@@ -17,7 +17,14 @@ from fastapi.responses import FileResponse
 from pydantic import ConfigDict, Field
 from starlette.background import BackgroundTask
 
-from mckibben.application.project.projects import files_of, give_back, missing_files, packed, table_of
+from mckibben.application.project.projects import (
+    files_of,
+    give_back,
+    missing_files,
+    packed,
+    table_of,
+    texts_in,
+)
 from mckibben.documents.strict import Strict
 from mckibben.projects.project import Project, ProjectSummary, Revision
 from mckibben.server import request_examples
@@ -149,6 +156,7 @@ def create_project(
             notes=body.notes,
             files=files_of(body.document, store),
             studies=studies,
+            answers=space.diagnoses.about(texts_in(body.document)),
         )
     )
     return JsonAnswer(_answer(made, remarks), status_code=201)
@@ -186,6 +194,7 @@ async def open_project(
     store: StoreDep,
     studio: StudioDep,
     kept_studies: StudiesDep,
+    space: SpaceDep,
     version: Annotated[int | None, Query(ge=1, description="An earlier version; left out: the last.")] = None,
 ) -> JsonAnswer:
     """A project; measurements and runs of studies that the server no longer has are stored again."""
@@ -196,6 +205,8 @@ async def open_project(
         await whole(request, "project files", wanted, studio, store)
 
     def answer() -> JsonAnswer:
+        for finished in projects.answers(project_id, space.diagnoses.names()):
+            space.diagnoses.bring(finished)
         studies = projects.studies(project_id) if project.studies else []
         return JsonAnswer(_answer(project, give_back(studies, kept_studies, studio)))
 
@@ -219,7 +230,7 @@ def save_project(
 ) -> JsonAnswer:
     """Save a further state; 409 where somebody else has saved since ``base_version``."""
     studies, remarks = table_of(body.study, kept_studies, studio)
-    has = projects.measurements(project_id)
+    has, answered = projects.measurements(project_id), projects.answer_names(project_id)
     saved = space.with_room(
         lambda: projects.save(
             project_id,
@@ -227,6 +238,7 @@ def save_project(
             base_version=body.base_version,
             files=files_of(body.document, store, has),
             studies=studies,
+            answers=space.diagnoses.about(texts_in(body.document), answered),
             label=body.label,
             automatic=body.automatic,
         )
