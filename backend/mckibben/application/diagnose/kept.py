@@ -1,8 +1,8 @@
 """Finished diagnoses that outlive page and server: asked again, one is answered as it was.
 
 An answer is kept under a name of all that it depends on: the question, the measurements by their content,
-the program, its presets and terms of the user. So it can be kept elsewhere and brought back: nothing else than
-its own question finds it. What was not finished is not kept.
+the program, its presets and terms of the user. So it can be kept elsewhere and brought back: nothing else
+than its own question finds it. What was not finished is not kept.
 
 A file of an answer begins with a line that names its measurements.
 """
