@@ -1,7 +1,7 @@
 """A server under load and attack: ``python -m tests.benchmarks.chaos [load] [queue] [memory] [held] [away]
 [end] [storm] [calm]``.
 
-Load at 1, 10 and 100 clients with and without diagnoses, a transient beside 20 diagnoses, memory over 2000
+Load at 1, 10 and 100 clients with and without diagnoses, a transient beside 20 diagnoses, memory over 3000
 structures of models and beside files that are held or exported, a database that is away and comes back, the
 end under each kind of work, and everything hostile at once, with and without kills. "Threads" is a server
 without processes of its own (``--workers 0``), as it was before it had any. All of them take a quarter of an
@@ -32,7 +32,7 @@ from tests.robustness.load import DIAGNOSIS, ask, clients, diagnosis, metrics, p
 from tests.running_server import AUTHORIZED, MAIN, RunningServer
 
 LOAD_SECONDS = 10.0
-STRUCTURES = 2000
+STRUCTURES = 3000
 EACH, PATIENCE = 4, 25.0  # s
 FEW_FILES = ("/bin/sh", "-c", 'ulimit -n 256; exec "$@"', "sh", *MAIN)
 EXAMPLES = json.loads((Path(mckibben.server.__file__).parent / "request_examples.json").read_text("utf-8"))
@@ -125,7 +125,7 @@ def memory() -> None:
         chosen = (some for size in (1, 2, 3) for some in itertools.combinations(effects, size))
         computed = 0
         for some in chosen:
-            if computed in (0, 500, 1000, 1500, STRUCTURES):
+            if computed in (0, 500, 1000, 1500, 2000, 2500, STRUCTURES):
                 taken = processes(server)
                 _say(f"{computed:5d} {taken[server.pid] / 1e6:8.0f} {max(taken.values()) / 1e6:8.0f}")
             if computed == STRUCTURES:
