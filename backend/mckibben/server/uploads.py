@@ -9,6 +9,7 @@ from contextlib import asynccontextmanager, contextmanager, suppress
 from pathlib import Path
 from typing import IO
 
+from anyio import CancelScope
 from fastapi import Request
 from fastapi.concurrency import run_in_threadpool
 
@@ -34,16 +35,11 @@ class Scratch:
     @contextmanager
     def file(self) -> Iterator[tuple[Path, IO[bytes]]]:
         """A new file, to write; removed at the end of the block."""
-        with self._usable():
-            handle = tempfile.NamedTemporaryFile(  # noqa: SIM115 - closed below
-                dir=self._opened(), prefix=".", buffering=0, delete=False
-            )
-        path = Path(handle.name)
+        handle = self._begun()
         try:
-            with handle:
-                yield path, handle
+            yield Path(handle.name), handle
         finally:
-            path.unlink(missing_ok=True)
+            _removed(handle)
 
     @asynccontextmanager
     async def received(self, request: Request) -> AsyncIterator[Path]:
@@ -52,7 +48,8 @@ class Scratch:
         Raises:
             InputError: code ``no_space``, the disk is full, also without what was deleted.
         """
-        with self.file() as (path, handle):
+        handle = await run_in_threadpool(self._begun)
+        try:
             pieces, size = [], 0
             async for piece in request.stream():
                 pieces.append(piece)
@@ -61,8 +58,14 @@ class Scratch:
                     await run_in_threadpool(self._write, handle, b"".join(pieces))
                     pieces, size = [], 0
             await run_in_threadpool(self._write, handle, b"".join(pieces))
-            handle.close()
-            yield path
+            yield Path(handle.name)
+        finally:
+            with CancelScope(shield=True):
+                await run_in_threadpool(_removed, handle)
+
+    def _begun(self) -> IO[bytes]:
+        with self._usable():
+            return tempfile.NamedTemporaryFile(dir=self._opened(), prefix=".", buffering=0, delete=False)
 
     def _write(self, handle: IO[bytes], content: bytes) -> None:
         begin = handle.tell()
@@ -95,6 +98,11 @@ class Scratch:
             yield
         except OSError as error:
             raise self._store.unusable("stored", error) from error
+
+
+def _removed(handle: IO[bytes]) -> None:
+    handle.close()
+    Path(handle.name).unlink(missing_ok=True)
 
 
 def _written(handle: IO[bytes], content: bytes) -> None:

@@ -187,8 +187,11 @@ def _bound_work(seconds: float) -> None:
     if sys.platform != "win32":
         import resource
 
-        most = resource.RLIM_INFINITY
+        hard = resource.getrlimit(resource.RLIMIT_CPU)[1]
+        most = hard
         if math.isfinite(seconds):
             most = math.ceil(time.process_time() + seconds)
-        hard = resource.getrlimit(resource.RLIMIT_CPU)[1]
-        resource.setrlimit(resource.RLIMIT_CPU, (most if hard == resource.RLIM_INFINITY else hard, hard))
+            most = most if hard == resource.RLIM_INFINITY else min(most, hard)
+        resource.setrlimit(resource.RLIMIT_CPU, (most, hard))
+        # Such an end is no fault that anybody looks into: nothing is written of it.
+        resource.setrlimit(resource.RLIMIT_CORE, (0, resource.getrlimit(resource.RLIMIT_CORE)[1]))
