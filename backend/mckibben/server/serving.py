@@ -43,6 +43,7 @@ _BODY_WITHIN = 20.0  # s, from one piece to the next
 _SLOW_WITHIN = 30.0  # s that a body may take however slow it is, then
 _LEAST_RATE = 10_000.0  # bytes/s on the mean
 _JUST_COME = 0.1  # s
+_LOOKS = 3  # rounds of the event loop in which what has arrived on a new connection is read
 _TAKEN_WITHIN = 60.0  # s in which nothing of an answer is taken
 
 LEVELS = ("critical", "error", "warning", "info", "debug")
@@ -206,8 +207,17 @@ class GuardedProtocol(H11Protocol):
     def _too_slow(self) -> None:
         self._end(b"408 Request Timeout", b"the request did not arrive in time")
 
-    def _make_room(self) -> None:
-        """End the connection that has been silent longest among those without a whole request."""
+    def _make_room(self, looks: int = _LOOKS) -> None:
+        """End the connection that has been silent longest among those without a whole request.
+
+        Only after what has arrived is read: on a busy machine a request may lie there longer than it takes.
+        """
+        if looks:
+            self.loop.call_soon(self._make_room, looks - 1)
+            return
+        if len(self.connections) <= self.most or self.transport.is_closing():
+            return
+        now = self.loop.time()
         waiting = [
             other
             for other in self.connections
@@ -218,7 +228,7 @@ class GuardedProtocol(H11Protocol):
         if not waiting:
             self._end(b"503 Service Unavailable", b"too many connections")
             return
-        victim = min(waiting, key=lambda other: other._worth(self._heard))
+        victim = min(waiting, key=lambda other: other._worth(now))
         self.connections.discard(victim)  # pyright: ignore - a protocol of uvicorn
         victim.transport.abort()
         self.refused["made room"] += 1
