@@ -189,13 +189,13 @@ def processes(server: Server) -> dict[int, int]:
 
 
 def workers_of(server: Server) -> list[int]:
-    """Process ids of the workers: grandchildren, whose parent is the fork server."""
-    direct = set()
+    """Process ids of the workers: children of the fork server, not the readers that they fork themselves."""
+    parents = {}
     for pid in processes(server):
         with contextlib.suppress(OSError):
-            if int(Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[1]) == server.pid:
-                direct.add(pid)
-    return [pid for pid in processes(server) if pid != server.pid and pid not in direct]
+            parents[pid] = int(Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[1])
+    direct = {pid for pid, parent in parents.items() if parent == server.pid}
+    return [pid for pid, parent in parents.items() if parent in direct]
 
 
 @dataclass
