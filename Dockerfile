@@ -14,4 +14,5 @@ USER studio
 ENV MCKIBBEN_DATA=/home/studio/data
 VOLUME /home/studio/data
 EXPOSE 8000
-CMD ["mckibben", "serve", "--host", "0.0.0.0", "--port", "8000", "--no-open"]
+# In clear text as far as the port that the host publishes, on 127.0.0.1 here.
+CMD ["mckibben", "serve", "--host", "0.0.0.0", "--insecure", "--port", "8000", "--no-open"]

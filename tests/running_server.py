@@ -13,10 +13,25 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
+TOKEN = "the-token-of-the-servers-of-the-tests"
+AUTHORIZED = {"authorization": f"Bearer {TOKEN}"}
 READY_WITHIN = 60.0  # s; the first start on a cold machine compiles bytecode of every dependency
 STOPS_WITHIN = 10.0  # s
 READY = re.compile(r"ready at (http://[\d.]+:\d+)/")  # what it prints, with the port it was given
 MAIN = (sys.executable, "-m", "mckibben")
+
+
+class _WithToken(urllib.request.BaseHandler):
+    """Sends the token of the servers of the tests."""
+
+    def http_request(self, request: urllib.request.Request) -> urllib.request.Request:
+        request.add_unredirected_header("Authorization", AUTHORIZED["authorization"])
+        return request
+
+
+def opener() -> urllib.request.OpenerDirector:
+    """Opens what servers of the tests answer; without proxies, to which some machines send loopback too."""
+    return urllib.request.build_opener(urllib.request.ProxyHandler({}), _WithToken())
 
 
 class ServerError(AssertionError):
@@ -31,7 +46,7 @@ class RunningServer:
             can depend on the one of the tests.
         command: what to start, without the arguments of ``serve``.
         arguments: further arguments of ``serve``.
-        token: that it asks for.
+        token: that it asks for where the arguments state it.
 
     Attributes:
         url: ``http://127.0.0.1:<port>``.
@@ -40,7 +55,12 @@ class RunningServer:
     """
 
     def __init__(
-        self, folder: Path, *, command: Sequence[str] = MAIN, arguments: Sequence[str] = (), token: str = ""
+        self,
+        folder: Path,
+        *,
+        command: Sequence[str] = MAIN,
+        arguments: Sequence[str] = (),
+        token: str = TOKEN,
     ) -> None:
         self.data = folder / "data"
         self.presets = folder / "presets"
@@ -48,7 +68,7 @@ class RunningServer:
         self._log = folder / "server.log"
         self._command = command
         self._arguments = arguments
-        self._headers = {"authorization": f"Bearer {token}"} if token else {}
+        self._headers = {"authorization": f"Bearer {token}"}
         self.url = ""
         self.seconds_to_ready = 0.0
 
@@ -63,7 +83,7 @@ class RunningServer:
                 stdin=subprocess.DEVNULL,
                 stdout=log,
                 stderr=subprocess.STDOUT,
-                env={**os.environ, "PYTHONUNBUFFERED": "1"},
+                env={**os.environ, "PYTHONUNBUFFERED": "1", "MCKIBBEN_TOKEN": TOKEN},
             )
         try:
             self._wait_until_ready()
@@ -113,10 +133,9 @@ class RunningServer:
                 )
             time.sleep(0.01)
         self.url = ready[1]
-        # Without proxies: some machines send every address through one, loopback included.
-        opener = urllib.request.build_opener(urllib.request.ProxyHandler({}))
+        plain = urllib.request.build_opener(urllib.request.ProxyHandler({}))
         request = urllib.request.Request(f"{self.url}/api/health", headers=self._headers)
-        with opener.open(request, timeout=READY_WITHIN):
+        with plain.open(request, timeout=READY_WITHIN):
             self.seconds_to_ready = time.perf_counter() - start
 
     def _stop(self) -> None:

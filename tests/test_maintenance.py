@@ -101,6 +101,18 @@ def test_the_changelog_begins_with_this_version_and_its_date() -> None:
     assert f"\nlicense: {PROJECT['license']}\n" in citation
 
 
+def test_each_promise_of_security_names_the_test_that_proves_it() -> None:
+    text = (ROOT / "SECURITY.md").read_text("utf-8")
+    promises = re.findall(r"^- .*?(?=\n- |\n\n)", text, re.MULTILINE | re.DOTALL)
+    assert len(promises) > 20
+    for promise in promises:
+        named = re.findall(r"`([a-z0-9_/]+\.py)::(test_[a-z0-9_]+)`", promise)
+        assert named, promise
+        for file, test in named:
+            found = (ROOT / "tests" / file).read_text("utf-8")
+            assert re.search(rf"^(async )?def {test}\(", found, re.MULTILINE), f"{file}::{test}"
+
+
 def test_files_and_commands_that_are_named_exist() -> None:
     for document in ("CONTRIBUTING.md", "SECURITY.md"):
         text = (ROOT / document).read_text("utf-8")

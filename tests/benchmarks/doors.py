@@ -22,7 +22,7 @@ import numpy as np
 
 import mckibben as mk
 from tests.benchmarks.engine import say
-from tests.running_server import RunningServer
+from tests.running_server import AUTHORIZED, RunningServer
 
 ROUNDS = 60
 
@@ -56,7 +56,9 @@ def over_http(folder: Path) -> None:
         body = json.dumps({"drive": "propneu-20", "points": 1000})
 
         def ask() -> None:
-            connection.request("POST", "/api/simulations", body, {"content-type": "application/json"})
+            connection.request(
+                "POST", "/api/simulations", body, {"content-type": "application/json", **AUTHORIZED}
+            )
             assert len(connection.getresponse().read()) > 1000
 
         ask()

@@ -21,7 +21,7 @@ from tests.benchmarks.diagnosis import say
 from tests.frontend.browser import ARGUMENTS, find_or_get
 from tests.frontend.test_transient import open_transient
 from tests.frontend.views import open_design, run
-from tests.running_server import RunningServer
+from tests.running_server import AUTHORIZED, RunningServer
 
 _FRAMES = """
 const frames = () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
@@ -111,7 +111,12 @@ def main() -> None:
         sync_playwright() as tool,
     ):
         browser = tool.chromium.launch(args=[*ARGUMENTS], **path)
-        measured(browser.new_page(base_url=server.url, viewport={"width": 1440, "height": 1000}), steps)
+        measured(
+            browser.new_page(
+                base_url=server.url, viewport={"width": 1440, "height": 1000}, extra_http_headers=AUTHORIZED
+            ),
+            steps,
+        )
         browser.close()
 
 

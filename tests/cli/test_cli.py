@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 import signal
 import socket
 import subprocess
 import sys
 import time
+import urllib.error
 import urllib.request
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -21,7 +23,7 @@ from mckibben.cli.options import ModelOptions, start_model
 from mckibben.cli.serve import _bind, _link
 from mckibben.resources import presets_folder
 from tests.cli.conftest import Run, write
-from tests.running_server import MAIN, RunningServer
+from tests.running_server import MAIN, RunningServer, opener
 from tests.shipped import shipped_studio
 
 CSV = "# kind: static\npressure_bar;length_mm;force_N\n" + "".join(
@@ -416,15 +418,26 @@ def test_small_answers_do_not_wait_to_be_collected() -> None:
         assert listening.proto == socket.IPPROTO_TCP
 
 
-def test_serve_prints_its_link_when_it_is_ready_and_stops_on_interrupt(started: Started) -> None:
+def test_serve_prints_its_link_when_it_is_ready_and_stops_on_interrupt(
+    started: Started, tmp_path: Path
+) -> None:
     begin = time.perf_counter()
     process, line = started("--port", "0")
     assert time.perf_counter() - begin < 10.0
-    found = re.search(r"http://127\.0\.0\.1:(\d+)/ ", line)
+    found = re.search(r"(http://127\.0\.0\.1:\d+)/\?token=(\S{43}) ", line)
     assert found is not None
-    port = int(found[1])
-    opener = urllib.request.build_opener(urllib.request.ProxyHandler({}))
-    with opener.open(f"http://127.0.0.1:{port}/api/health", timeout=5) as answer:
+    plain = urllib.request.build_opener(urllib.request.ProxyHandler({}))
+    with pytest.raises(urllib.error.HTTPError) as refused:
+        plain.open(f"{found[1]}/api/health", timeout=5)
+    assert refused.value.code == 401
+    refused.value.close()
+    kept = tmp_path / "served" / "token"  # for other programs of this user
+    assert kept.read_text("ascii").strip() == found[2]
+    if os.name == "posix":
+        assert kept.stat().st_mode & 0o777 == 0o600
+    bearer = {"authorization": f"Bearer {found[2]}"}
+    request = urllib.request.Request(f"{found[1]}/api/health", headers=bearer)
+    with plain.open(request, timeout=5) as answer:
         assert json.load(answer)["version"] == __version__
     process.send_signal(signal.SIGINT)
     out, err = process.communicate(timeout=10)
@@ -457,17 +470,37 @@ def test_the_default_port_moves_on_when_it_is_taken(started: Started) -> None:
     assert 8000 < int(found[1]) < 8050
 
 
-def test_the_link_carries_the_token_of_an_address_reachable_from_outside() -> None:
-    assert _link("192.0.2.7", 8000, "abc") == "http://192.0.2.7:8000/?token=abc"
-    assert _link("[::1]", 8000, None) == "http://[::1]:8000/"
+def test_an_address_in_a_link() -> None:
+    assert _link("http", "192.0.2.7", 8000) == "http://192.0.2.7:8000/"
+    assert _link("https", "[::1]", 8000) == "https://[::1]:8000/"
+
+
+def test_clear_text_to_others_has_to_be_wished(run: Run) -> None:
+    line = refused(run("serve", "--no-open", "--host", "0.0.0.0", "--port", "0"))
+    assert "clear text" in line
+    assert "--insecure" in line
+
+
+@pytest.mark.skipif(not hasattr(socket, "AF_UNIX"), reason="no Unix sockets")
+def test_a_unix_socket_is_of_its_user_alone(started: Started, tmp_path: Path) -> None:
+    path = tmp_path / "studio.sock"
+    process, line = started("--uds", str(path))
+    assert f"ready at unix:{path} " in line
+    assert path.stat().st_mode & 0o777 == 0o600
+    with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as client:
+        client.connect(str(path))
+        client.sendall(b"GET /api/health HTTP/1.1\r\nhost: localhost\r\nconnection: close\r\n\r\n")
+        assert client.makefile("rb").readline() == b"HTTP/1.1 200 OK\r\n"
+    process.send_signal(signal.SIGTERM)
+    process.communicate(timeout=10)
+    assert not path.exists()
 
 
 def test_what_is_sent_to_a_running_server_is_kept_in_its_folder(server: RunningServer) -> None:
     request = urllib.request.Request(
         f"{server.url}/api/measurements?name=a.csv", CSV.encode(), {"content-type": "text/csv"}, method="PUT"
     )
-    opener = urllib.request.build_opener(urllib.request.ProxyHandler({}))
-    with opener.open(request, timeout=10) as answer:
+    with opener().open(request, timeout=10) as answer:
         identity = json.load(answer)["id"]
     assert (server.data / "measurements" / f"{identity}.data").read_bytes() == CSV.encode()
 

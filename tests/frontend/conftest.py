@@ -22,7 +22,7 @@ from tests.frontend.browser import ARGUMENTS, NoBrowserError, find_or_get
 from tests.frontend.diagnoses import keep_in
 from tests.frontend.guard import PageGuard
 from tests.frontend.views import KEPT, open_compare, run
-from tests.running_server import RunningServer
+from tests.running_server import AUTHORIZED, RunningServer
 
 _RESTING = '<title>resting</title><link rel="icon" href="data:,">'  # else the browser asks for /favicon.ico
 
@@ -56,6 +56,12 @@ def _diagnoses_of_the_run(tmp_path_factory: pytest.TempPathFactory) -> None:
     """What the server diagnosed for one worker is known to the others."""
     base = tmp_path_factory.getbasetemp()
     keep_in((base.parent if os.environ.get("PYTEST_XDIST_WORKER") else base) / "diagnoses")
+
+
+@pytest.fixture(scope="session")
+def browser_context_args(browser_context_args: dict[str, Any]) -> dict[str, Any]:
+    """What each context begins with: the token, as the link of the server gives it."""
+    return {**browser_context_args, "extra_http_headers": AUTHORIZED}
 
 
 @pytest.fixture(scope="session")

@@ -100,7 +100,9 @@ def test_a_diagnosis_whose_time_is_over_shows_what_it_found(page: Page) -> None:
     expect(told).to_contain_text("ended the diagnosis after 0 of ")
     page.get_by_role("button", name="Diagnose", exact=True).click()
     expect(told).to_contain_text("Not finished. So far, with ", timeout=60_000)
-    expect(told).to_contain_text(re.compile(r"The limit of 7 s ended the diagnosis after \d+ of \d+ effects"))
+    expect(told).to_contain_text(
+        re.compile(r"The limit of 7 s of processor time ended the diagnosis after \d+ of \d+ effects")
+    )
     card = page.get_by_role("region", name="What is missing")
     expect(card.locator(".card-head")).to_contain_text("not finished")
     expect(card.locator(".found-missing > li")).not_to_have_count(0)

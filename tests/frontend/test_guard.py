@@ -6,6 +6,7 @@ import pytest
 from playwright.sync_api import Browser
 
 from tests.frontend.guard import PageGuard
+from tests.running_server import AUTHORIZED
 
 # What a page must not do, and the beginning of the guard's complaint about it.
 OFFENCES = {
@@ -22,7 +23,9 @@ def complaint(browser: Browser, url: str, script: str, *, allow: str | None = No
     guard = PageGuard(url)
     if allow is not None:
         guard.allow(allow)
-    context = browser.new_context(bypass_csp=True)  # else the policy stops what the guard is to see
+    context = browser.new_context(
+        bypass_csp=True, extra_http_headers=AUTHORIZED
+    )  # else the policy stops what the guard is to see
     guard.watch(context)
     page = context.new_page()
     page.goto(f"{url}/api/health")

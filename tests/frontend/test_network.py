@@ -7,7 +7,6 @@ import re
 from collections.abc import Callable
 from pathlib import Path
 from urllib.parse import urlsplit
-from urllib.request import urlopen
 
 import pytest
 from playwright.sync_api import BrowserContext, Page, expect
@@ -16,6 +15,7 @@ from tests.frontend.axe import violations
 from tests.frontend.comparing import measured, use
 from tests.frontend.guard import PageGuard
 from tests.frontend.views import enter, link_of, load, marked, open_catalogue, open_compare, open_design, run
+from tests.running_server import opener
 
 APP = Path(__file__).resolve().parents[2] / "frontend" / "app"
 
@@ -38,9 +38,9 @@ def test_no_file_of_the_frontend_names_another_origin() -> None:
 
 
 def test_no_effect_is_named_in_the_frontend(server_url: str) -> None:
-    with urlopen(f"{server_url}/api/effects") as answer:
+    with opener().open(f"{server_url}/api/effects") as answer:
         effects = [effect["id"] for effect in json.load(answer)["effects"]]
-    with urlopen(f"{server_url}/openapi.json") as answer:
+    with opener().open(f"{server_url}/openapi.json") as answer:
         schemas = json.load(answer)["components"]["schemas"]
     # A muscle has a temperature and a wall whether or not effects of these names exist.
     fields = set(schemas["CurvesRequest"]["properties"]) | set(schemas["MuscleInput"]["properties"])

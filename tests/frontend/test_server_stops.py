@@ -17,7 +17,7 @@ from playwright.sync_api import Browser, Page, expect
 from tests.frontend.comparing import drop
 from tests.frontend.importing import plain
 from tests.frontend.views import enter, open_compare, run
-from tests.running_server import RunningServer
+from tests.running_server import AUTHORIZED, RunningServer
 
 INNER_WORDS = re.compile(
     r"TypeError|NetworkError|Failed to fetch|\b(?:GET|PUT|POST)\b|\bat https?:|Traceback"
@@ -106,7 +106,9 @@ def page_of_a_port(browser: Browser) -> tuple[Page, tuple[str, ...], list[str]]:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
     context = browser.new_context(
-        base_url=f"http://127.0.0.1:{port}", viewport={"width": 1440, "height": 1000}
+        base_url=f"http://127.0.0.1:{port}",
+        viewport={"width": 1440, "height": 1000},
+        extra_http_headers=AUTHORIZED,
     )
     page, faults = context.new_page(), list[str]()
     page.on("pageerror", lambda error: faults.append(str(error)))

@@ -212,7 +212,7 @@ def test_a_search_whose_time_is_over_shows_the_drives_found_so_far(page: Page) -
     expect(rows(page)).to_have_count(len(answer["proposals"]))
     expect(page.locator(".proposals .card-head")).to_contain_text("found so far, best first")
     expect(page.locator(".ranked .notice")).to_contain_text(
-        "Partial result. The limit of 7 s ended the search"
+        "Partial result. The limit of 7 s of processor time ended the search"
     )
     expect(page.locator(".chosen-drive")).to_contain_text("is not known: no specimens were simulated")
     expect(page.locator(".status")).to_contain_text("found so far")

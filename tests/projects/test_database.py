@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
+import hashlib
 import os
 import signal
+import socket
 import sqlite3
 import subprocess
 import sys
@@ -16,9 +19,13 @@ from sqlalchemy import text
 
 from mckibben.physics.errors import InputError
 from mckibben.projects.database import Database, migrate
+from mckibben.projects.migrations import versions
 from mckibben.projects.store import ProjectStore
 from mckibben.projects.tables import Base
+from tests.projects.conftest import empty
 
+SCHEMAS = Path(__file__).with_name("schemas")
+VERSIONS = sorted(path.stem[1:5] for path in Path(versions.__path__[0]).glob("v[0-9]*.py"))
 WRITER = Path(__file__).with_name("writer.py")
 
 
@@ -31,15 +38,46 @@ def test_the_migrations_end_at_the_tables(database: Database) -> None:
         assert compare_metadata(context, Base.metadata) == []
 
 
-def test_a_database_without_studies_is_brought_forward(database: Database) -> None:
+@pytest.mark.parametrize("version", VERSIONS)
+def test_a_database_of_each_earlier_version_is_brought_forward(tmp_path: Path, version: str) -> None:
+    """As a program of that time has left it; whoever adds a version leaves its database here."""
+    with contextlib.closing(sqlite3.connect(tmp_path / "projects.sqlite")) as old:
+        old.executescript((SCHEMAS / f"{version}.sql").read_text("utf-8"))
+    store = ProjectStore(Database(tmp_path))
+    lift, binned = "a" * 32, "b" * 32
+    (file,) = store.files(lift)
+    assert store.open(lift).document == {"case": file.measurement}
+    assert store.open(lift, 1).document == {"step": 1}
+    assert hashlib.sha256(file.content).hexdigest() == file.measurement
+    assert [each.runs for each in store.studies(lift)] == ([3] if version > "0001" else [])
+    assert [each.id for each in store.list(deleted=True)] == [binned]
+    store.erase(binned)  # with it, the file learns to give space back
+    assert store.save(lift, {"step": 3}, base_version=2).summary.version == 3
+    store.close()
+
+
+def test_a_database_that_is_away_is_told_at_once_and_found_again() -> None:
+    with socket.create_server(("127.0.0.1", 0)) as silent:  # takes connections and says nothing
+        database = Database(f"postgresql://tester:secret@127.0.0.1:{silent.getsockname()[1]}/x")
+        with ThreadPoolExecutor(3) as threads:  # nobody waits for the time of the others as well
+            refused = [threads.submit(ProjectStore(database).list) for _ in range(3)]
+            errors = [future.exception() for future in refused]
+    assert all(isinstance(error, InputError) and error.code == "unavailable" for error in errors)
+    assert "secret" not in "".join(f"{error} {getattr(error, 'hint', '')}" for error in errors)
+    database.close()
+
+
+def test_connections_that_a_restart_has_ended_are_replaced(postgresql: str) -> None:
+    database = Database(postgresql)
+    empty(database)
     store = ProjectStore(database)
-    identity = store.create({"kept": True}, title="Lift").summary.id
-    with database._engine.begin() as connection:
-        connection.execute(text("DROP TABLE project_studies"))
-        connection.execute(text("UPDATE alembic_version SET version_num = '0001'"))
-    database._migrated = False
-    opened = store.open(identity)
-    assert (opened.document, opened.studies) == ({"kept": True}, ())
+    store.create({}, title="Lift")
+    with contextlib.closing(Database(postgresql)) as other, other._engine.begin() as connection:
+        connection.execute(
+            text("SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE pid <> pg_backend_pid()")
+        )
+    assert len(store.list()) == 1
+    database.close()
 
 
 def test_servers_that_start_together_migrate_once(tmp_path: Path) -> None:
@@ -101,9 +139,9 @@ def test_addresses_that_are_none_are_refused(address: str, words: str) -> None:
 
 def test_a_database_that_cannot_be_reached_is_said() -> None:
     database = Database("postgresql://tester:secret@/postgres?host=/nowhere-at-all")
-    with pytest.raises(InputError, match="cannot be read or written") as caught, database.session():
+    with pytest.raises(InputError, match="does not answer") as caught, database.session():
         pass
-    assert caught.value.code == "conflict"
+    assert caught.value.code == "unavailable"
     assert "secret" not in f"{caught.value} {caught.value.hint}"
     database.close()
 

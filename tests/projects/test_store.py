@@ -13,7 +13,7 @@ from sqlalchemy import select
 from mckibben.physics.errors import InputError
 from mckibben.projects import store as module
 from mckibben.projects.database import Database
-from mckibben.projects.project import ChangedElsewhereError, Revision, StoredFile, StoredStudy
+from mckibben.projects.project import ChangedElsewhereError, Revision, StoredAnswer, StoredFile, StoredStudy
 from mckibben.projects.store import ProjectStore
 from mckibben.projects.tables import ContentRow
 
@@ -32,7 +32,7 @@ def test_what_is_saved_is_opened(store: ProjectStore) -> None:
     assert (opened.summary.version, opened.summary.files) == (1, 1)
     assert opened.summary.size > len(CSV)
     assert opened.measurements == (FILE.measurement,)
-    assert store.files(made.summary.id) == [FILE]
+    assert list(store.files(made.summary.id)) == [FILE]
     assert [each.id for each in store.list()] == [made.summary.id]
 
 
@@ -121,7 +121,7 @@ def test_the_bin_gives_back(store: ProjectStore) -> None:
     assert [each.id for each in store.list(deleted=True)] == [identity]
     for refused in (
         lambda: store.open(identity),
-        lambda: store.files(identity),
+        lambda: list(store.files(identity)),
         lambda: store.history(identity),
         lambda: store.save(identity, {}, base_version=1),
     ):
@@ -137,18 +137,25 @@ def test_the_bin_gives_back(store: ProjectStore) -> None:
     assert store.list(deleted=True) == []
 
 
-def test_the_bin_is_emptied_after_thirty_days(store: ProjectStore, monkeypatch: pytest.MonkeyPatch) -> None:
-    now = [1_000_000_000_000]
+@pytest.mark.parametrize("jump", [-20, 20])
+def test_a_clock_that_jumps_by_years_ends_nothing(
+    store: ProjectStore, monkeypatch: pytest.MonkeyPatch, jump: int
+) -> None:
+    now = [1_600_000_000_000]
     monkeypatch.setattr(module, "_now", lambda: now[0])
-    old = store.create(DOCUMENT, title="old", files=[FILE]).summary.id
-    store.delete(old)
-    now[0] += 29 * 86_400_000
+    binned = store.create(DOCUMENT, title="old", files=[FILE]).summary.id
+    store.delete(binned)
+    identity = store.create({}, title="Lift").summary.id
+    store.save(identity, {"step": 1}, base_version=1, studies=[TABLE])
+    now[0] += jump * 365 * 86_400_000
     store.create({}, title="new")
-    assert len(store.list(deleted=True)) == 1
-    now[0] += 2 * 86_400_000
-    kept = store.create({}, title="newer", files=[FILE]).summary.id
-    assert store.list(deleted=True) == []
-    assert store.files(kept) == [FILE], "a content that another project needs stays"
+    later = StoredStudy("c" * 32, "b" * 64, 1, b"head\none\n")
+    store.save(identity, {"step": 2}, base_version=2, automatic=True, studies=[later])
+    assert store.open(identity).document == {"step": 2}
+    assert [each.version for each in store.history(identity)] == [3, 2, 1]
+    assert store.studies(identity) == [later, TABLE]
+    assert [each.id for each in store.list(deleted=True)] == [binned]
+    assert store.restore(binned).files == 1
 
 
 def test_a_copy_is_its_own(store: ProjectStore) -> None:
@@ -160,7 +167,7 @@ def test_a_copy_is_its_own(store: ProjectStore) -> None:
     assert store.open(identity).document == DOCUMENT
     store.delete(identity)
     store.erase(identity)
-    assert store.files(copy.summary.id) == [FILE]
+    assert list(store.files(copy.summary.id)) == [FILE]
 
 
 @pytest.mark.parametrize(
@@ -238,6 +245,20 @@ def test_a_longer_table_of_the_same_study_replaces_it(store: ProjectStore) -> No
     with store._database.session() as session:
         contents = session.scalars(select(ContentRow.data)).all()
     assert contents == [longer.content], "what nobody needs is not kept"
+
+
+def test_finished_diagnoses_stay_with_their_project(
+    store: ProjectStore, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first, second, third = (StoredAnswer(name * 64, b"[]\n" + name.encode()) for name in "abc")
+    identity = store.create(DOCUMENT, title="Lift", answers=[first]).summary.id
+    store.save(identity, {}, base_version=1, answers=[first, second])
+    assert list(store.answers(identity)) == [first, second]
+    assert list(store.answers(identity, {first.name})) == [second]
+    assert list(store.answers(store.duplicate(identity).summary.id)) == [first, second]
+    monkeypatch.setattr(module, "_MOST_ANSWERS", 1)
+    store.save(identity, {}, base_version=2, answers=[third])
+    assert list(store.answers(identity)) == [third]
 
 
 def test_study_tables_saved_first_give_way(store: ProjectStore, monkeypatch: pytest.MonkeyPatch) -> None:

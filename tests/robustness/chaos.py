@@ -20,12 +20,23 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from tests.robustness.hostile import MATLAB, hostile
-from tests.robustness.load import CURVES, DIAGNOSIS, Pace, Watched, ask, clients_apart, workers_of
+from tests.robustness.load import (
+    CURVES,
+    DIAGNOSIS,
+    Pace,
+    Watched,
+    ask,
+    clients_apart,
+    diagnosis,
+    metrics,
+    processes,
+    workers_of,
+)
 from tests.robustness.variants import variants
 from tests.running_server import RunningServer
 
 #: What a server may answer: never a 5xx, never nothing. A worker that is killed costs a 422 of its own job.
-ALLOWED = {200, 400, 404, 409, 413, 415, 422, 429}
+ALLOWED = {200, 400, 404, 409, 413, 415, 422, 429, 507}
 HALVES = (
     b"GET / HTTP/1.1\r\nHost: 127.0.0.1\r\n",
     b"POST /api/curves HTTP/1.1\r\nHost: 127.0.0.1\r\ncontent-type: application/json\r\n"
@@ -72,6 +83,8 @@ class Storm:
         acknowledged: ids of the files that the server said it keeps.
         lost: those that it does not have afterwards.
         killed: workers.
+        replaced: workers that the server says were killed and replaced.
+        left: processes of the server that live on after its end.
         curves: of the clients.
         watch: health and memory.
         ended: seconds from SIGTERM to the end of the process.
@@ -84,6 +97,8 @@ class Storm:
     acknowledged: set[str] = field(default_factory=set)
     lost: set[str] = field(default_factory=set)
     killed: int = 0
+    replaced: int = 0
+    left: int = 0
     curves: Pace = field(default_factory=Pace)
     watch: Watched = field(default_factory=Watched)
     ended: float = 0.0
@@ -146,12 +161,19 @@ def storm(server: RunningServer, plan: Plan) -> Storm:
     for identity in found.acknowledged:
         if ask(server, "GET", f"/api/measurements/{identity}").status != 200:
             found.lost.add(identity)
+    told = metrics(server)
+    found.replaced = round(sum(told[name] for name in told if "ended_total{" in name and '"killed"' in name))
+    everyone = processes(server)
     begin = time.monotonic()
     server.send_signal(signal.SIGTERM)
     server.wait(30.0)
     found.ended = time.monotonic() - begin
     for thread in running:
         thread.join()
+    last = time.monotonic() + 10.0
+    while (left := [pid for pid in everyone if os.path.exists(f"/proc/{pid}")]) and time.monotonic() < last:
+        time.sleep(0.1)
+    found.left = len(left)
     found.traceback = "Traceback" in server.output
     found.lines = len(server.output.splitlines())
     return found
@@ -223,7 +245,7 @@ def _kills(server: RunningServer, plan: Plan, found: Storm, over: threading.Even
 
 def _diagnoses(server: RunningServer, found: Storm, over: threading.Event) -> None:
     while not over.is_set():
-        said = ask(server, "POST", "/api/diagnoses", DIAGNOSIS, within=300.0, events=True)
+        said = ask(server, "POST", "/api/diagnoses", diagnosis(), within=300.0, events=True)
         last = said.body.rpartition(b"event: ")[2].partition(b"\n")[0].strip().decode()
         ended = last in ("done", "error") or said.body.startswith(b'{"error"')
         found.note("diagnoses", f"last event {last!r}", said.status if ended else 0, said.body[-300:])

@@ -9,6 +9,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import http.client
+import itertools
 import json
 import statistics
 import subprocess
@@ -21,11 +22,20 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
+from tests.running_server import AUTHORIZED
+
 CURVES = {"muscle": {"preset": "DMSP-20"}, "pressures": ["2 bar", "4 bar"], "points": 50}
 DIAGNOSIS = {
     "muscle": {"preset": "DMSP-20", "nominal_length": "300 mm"},
     "measurement": "martens-dmsp-20-300",
 }
+_asked = itertools.count()
+
+
+def diagnosis() -> dict[str, Any]:
+    """A diagnosis that was not asked before: a finished one is answered from what is kept."""
+    muscle = {"preset": "DMSP-20", "nominal_length": f"{300.0 + 1e-6 * next(_asked):.6f} mm"}
+    return DIAGNOSIS | {"muscle": muscle}
 
 
 _ROUND = 5.0  # s; how often clients apart look whether to go on
@@ -60,7 +70,7 @@ def ask(
 ) -> Said:
     """Send a request of its own connection; an object is sent as JSON, bytes as a file."""
     content = body if body is None or isinstance(body, bytes) else json.dumps(body).encode()
-    headers = {"content-type": "text/csv" if isinstance(body, bytes) else "application/json"}
+    headers = AUTHORIZED | {"content-type": "text/csv" if isinstance(body, bytes) else "application/json"}
     if events:
         headers["accept"] = "text/event-stream"
     begin = time.perf_counter()
@@ -136,7 +146,7 @@ def clients(server: Server, number: int, seconds: float, every: float = 1.0) -> 
     port = int(server.url.rpartition(":")[2])
     request = (
         f"POST /api/curves HTTP/1.1\r\nhost: 127.0.0.1:{port}\r\ncontent-type: application/json\r\n"
-        f"content-length: {len(body)}\r\n\r\n"
+        f"authorization: {AUTHORIZED['authorization']}\r\ncontent-length: {len(body)}\r\n\r\n"
     ).encode() + body
     pace = Pace()
 
@@ -147,6 +157,21 @@ def clients(server: Server, number: int, seconds: float, every: float = 1.0) -> 
 
     asyncio.run(run())
     return pace
+
+
+def metrics(server: Server) -> dict[str, float]:
+    """What a server says of itself: name with labels -> value."""
+    lines = ask(server, "GET", "/metrics").body.decode().splitlines()
+    return {
+        name: float(value) for name, _, value in (line.rpartition(" ") for line in lines if line[0] != "#")
+    }
+
+
+def descriptors(server: Server) -> int:
+    """Files and connections that the server itself has open; 0 where /proc does not tell."""
+    with contextlib.suppress(OSError):
+        return len(list(Path(f"/proc/{server.pid}/fd").iterdir()))
+    return 0
 
 
 def processes(server: Server) -> dict[int, int]:
@@ -164,13 +189,13 @@ def processes(server: Server) -> dict[int, int]:
 
 
 def workers_of(server: Server) -> list[int]:
-    """Process ids of the workers: grandchildren, whose parent is the fork server."""
-    direct = set()
+    """Process ids of the workers: children of the fork server, not the readers that they fork themselves."""
+    parents = {}
     for pid in processes(server):
         with contextlib.suppress(OSError):
-            if int(Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[1]) == server.pid:
-                direct.add(pid)
-    return [pid for pid in processes(server) if pid != server.pid and pid not in direct]
+            parents[pid] = int(Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[1])
+    direct = {pid for pid, parent in parents.items() if parent == server.pid}
+    return [pid for pid, parent in parents.items() if parent in direct]
 
 
 @dataclass
@@ -182,12 +207,14 @@ class Watched:
         unhealthy: what came instead of an answer.
         largest: most that one process had in memory [bytes].
         own: most that the server itself had [bytes].
+        descriptors: most that it had open.
     """
 
     health: list[float] = field(default_factory=list)
     unhealthy: list[int] = field(default_factory=list)
     largest: int = 0
     own: int = 0
+    descriptors: int = 0
 
 
 @contextmanager
@@ -201,6 +228,7 @@ def watched(server: Server, every: float = 0.25) -> Iterator[Watched]:
             (found.health.append(said.seconds) if said.status == 200 else found.unhealthy.append(said.status))
             memory = processes(server)
             found.own = max(found.own, memory.get(server.pid, 0))
+            found.descriptors = max(found.descriptors, descriptors(server))
             found.largest = max(found.largest, *memory.values(), 0)
 
     thread = threading.Thread(target=look)

@@ -24,8 +24,8 @@ def test_a_full_disk_is_told_and_what_was_kept_stays(tmp_path: Path) -> None:
         assert kept.status == 200
         large = csv() + b"".join(b"0.1,1,300,%d\n" % number for number in range(20_000))
         refused = ask(server, "PUT", "/api/measurements?name=large.csv", large)
-        assert refused.status == 409
-        assert "cannot be stored" in json.loads(refused.body)["error"]["message"]
+        assert refused.status == 507
+        assert "the disk is full" in json.loads(refused.body)["error"]["message"]
         assert ask(server, "GET", f"/api/measurements/{json.loads(kept.body)['id']}").status == 200
         listed = json.loads(ask(server, "GET", "/api/kept").body)["items"]
         assert [item["name"] for item in listed] == ["small.csv"]

@@ -102,6 +102,7 @@ REQUESTS: dict[tuple[str, str], tuple[str, dict[str, Any]]] = {
     ("PATCH", "/api/kept/{kind}/{identity}"): ("/api/kept/muscles/mine-20", {"json": {"name": "mine"}}),
     ("DELETE", "/api/kept/{kind}/{identity}"): ("/api/kept/muscles/mine-20", {}),
     ("POST", "/api/kept/{kind}/{identity}/restore"): ("/api/kept/muscles/gone-20/restore", {}),
+    ("DELETE", "/api/kept/space/bin/{kind}"): ("/api/kept/space/bin/presets", {}),
     ("POST", "/api/reports"): (
         "/api/reports",
         {"json": MODEL | NOISY | {"history": [{"label": "before", "effects": {}}], "diagnose": True}},

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from fastapi.testclient import TestClient
 
-from mckibben.folder import locked
+from mckibben.folder import Quotas, locked
 from mckibben.measurement.store import MeasurementStore
 from mckibben.physics.errors import InputError
 from mckibben.server.app import create_app
@@ -58,7 +58,7 @@ def test_a_measurement_is_renamed_deleted_and_restored(client: TestClient) -> No
     assert [(item["kind"], item["id"], item["size"]) for item in listed["items"]] == [
         ("files", identity, len(CSV))
     ]
-    assert listed["size"] >= len(CSV)
+    assert listed["space"][0]["taken"] >= len(CSV)
     answer = client.patch(path, json={"name": "bench 3.csv", "was": "run1.csv"})
     assert names(answer) == {"items": ["bench 3.csv"], "deleted": []}
     assert client.get(f"/api/measurements/{identity}").json()["name"] == "bench 3.csv"
@@ -83,8 +83,8 @@ def test_a_content_stays_as_long_as_one_reading_of_it_is_kept(client: TestClient
     corrected = stored(client, query=mapping).json()["id"]
     assert corrected != plain
     client.delete(f"/api/kept/files/{plain}")
-    store = MeasurementStore(tmp_path / "data", quota=0)
-    with pytest.raises(InputError, match="of 0 MB"):  # it removed for good what it could
+    store = MeasurementStore(tmp_path / "data", quotas=Quotas(measurements=0))
+    with pytest.raises(InputError, match="of 0 kB"):  # it removed for good what it could
         store.put(CSV + b"1;282;120\n", "other.csv")
     assert store.deleted() == []
     assert client.get(f"/api/measurements/{corrected}").status_code == 200
@@ -93,17 +93,17 @@ def test_a_content_stays_as_long_as_one_reading_of_it_is_kept(client: TestClient
 
 def test_what_was_deleted_makes_room_and_nothing_else_does(tmp_path: Path) -> None:
     files = [CSV + b"1;280;%d\n" % number for number in range(3)]
-    store = MeasurementStore(tmp_path, quota=round(2.9 * len(files[0])))
+    store = MeasurementStore(tmp_path, quotas=Quotas(measurements=round(2.9 * len(files[0]))))
     first, second = (store.put(content, f"{number}.csv") for number, content in enumerate(files[:2]))
     with pytest.raises(InputError, match="kept measurements take") as full:
         store.put(files[2], "2.csv")
-    assert full.value.code == "conflict"
+    assert full.value.code == "no_space"
     assert {file.id for file in store.kept()} == {first.id, second.id}
     store.delete(first.id)
     third = store.put(files[2], "2.csv")
     assert {file.id for file in store.kept()} == {second.id, third.id}
     assert store.deleted() == []
-    assert store.size() <= store.quota
+    assert store.size() <= store.quotas.measurements
     store.put(files[1], "again.csv")  # is there already
 
 

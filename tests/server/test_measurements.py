@@ -140,7 +140,7 @@ def test_a_name_is_only_a_name(client: TestClient, settings: Settings, name: str
     written = {
         path.relative_to(settings.data)
         for path in settings.data.rglob("*")
-        if path.is_file() and path.name != ".lock"
+        if path.is_file() and not path.name.startswith(".")
     }
     assert written == {Path(f"measurements/{ID}.data"), Path(f"measurements/{ID}.json")}
 
@@ -186,7 +186,7 @@ def test_a_preview_says_what_the_file_is_and_keeps_nothing(client: TestClient, s
     assert body["problem"] is None
     assert body["measurement"]["id"] == ID
     assert "pressure" in [choice["name"] for choice in body["channel_choices"]]
-    assert not settings.data.exists()
+    assert not (settings.data / "measurements").exists()
 
 
 def test_a_preview_leads_to_the_mapping_that_is_sent(client: TestClient) -> None:

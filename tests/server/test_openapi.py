@@ -28,6 +28,7 @@ PATHS = {
     "/api/kept": {"get"},
     "/api/kept/{kind}/{identity}": {"patch", "delete"},
     "/api/kept/{kind}/{identity}/restore": {"post"},
+    "/api/kept/space/bin/{kind}": {"delete"},
     "/api/comparisons": {"post"},
     "/api/diagnoses": {"post"},
     "/api/experiments": {"post"},

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -9,8 +10,9 @@ from typing import Any
 import pytest
 from fastapi.testclient import TestClient
 
+from mckibben.server import security
 from mckibben.server.app import create_app
-from mckibben.server.security import JSON_LIMIT, SECURITY_HEADERS, UPLOAD_LIMIT, new_token
+from mckibben.server.security import JSON_LIMIT, SECURITY_HEADERS, UPLOAD_LIMIT, kept_token, new_token
 from mckibben.server.settings import Settings, is_loopback
 from tests.server.conftest import CSV, URL, assert_error
 
@@ -148,14 +150,14 @@ def test_without_the_token_nothing_is_answered(opened: Open) -> None:
         "/?token=",
         "/?token=%FF",
     ):
-        assert_error(client.get(path), 403, code="token_required")
+        assert_error(client.get(path), 401, code="token_required")
     for header in (
         {"authorization": "Bearer wrong"},
         {"authorization": TOKEN},
         {"cookie": "mckibben-8000=wrong"},
     ):
-        assert_error(client.get(HEALTH, headers=header), 403, code="token_required")
-    assert_error(client.post(f"/api/curves?token={TOKEN}", content=b"{}", headers=JSON), 403)
+        assert_error(client.get(HEALTH, headers=header), 401, code="token_required")
+    assert_error(client.post(f"/api/curves?token={TOKEN}", content=b"{}", headers=JSON), 401)
     assert TOKEN not in client.get("/").text
 
 
@@ -166,10 +168,40 @@ def test_the_link_with_the_token_becomes_a_cookie_and_a_clean_address(opened: Op
     assert response.headers["location"] == "/?view=design"
     cookie = response.headers["set-cookie"].lower()
     assert "httponly" in cookie
-    assert "samesite=strict" in cookie
+    assert "samesite=lax" in cookie
     assert TOKEN not in response.headers["location"]
     assert client.get(HEALTH).status_code == 200
     assert client.get("/").status_code in (200, 404)
+
+
+def test_the_link_of_the_opened_browser_works_once(opened: Open) -> None:
+    """Other users see the arguments of programs, and with them the link."""
+    client = opened(host="127.0.0.1", url=URL, once="a-code-that-works-once")
+    assert_error(client.get("/?once=another"), 401)
+    response = client.get("/?view=design&once=a-code-that-works-once")
+    assert (response.status_code, response.headers["location"]) == (303, "/?view=design")
+    assert client.get(HEALTH).status_code == 200
+    assert client.get("/?once=a-code-that-works-once").headers["location"] == "/"  # of who is in already
+    client.cookies.clear()
+    assert_error(client.get("/?once=a-code-that-works-once"), 401)
+
+
+def test_the_token_of_the_data_folder_is_kept_and_for_its_user_alone(tmp_path: Path) -> None:
+    token = kept_token(tmp_path / "data")
+    path = tmp_path / "data" / "token"
+    assert kept_token(tmp_path / "data") == token
+    if os.name == "posix":
+        assert path.stat().st_mode & 0o777 == 0o600
+        path.chmod(0o644)  # others may have read it
+        assert kept_token(tmp_path / "data") != token
+        assert path.stat().st_mode & 0o777 == 0o600
+    path.write_text("short", "ascii")
+    assert len(kept_token(tmp_path / "data")) == 43
+
+
+def test_the_cookie_of_https_is_not_sent_in_clear_text(opened: Open) -> None:
+    client = opened(url="https://192.0.2.7:8000")
+    assert "; secure" in client.get(f"/?token={TOKEN}").headers["set-cookie"].lower()
 
 
 def test_the_redirect_stays_on_this_server(opened: Open) -> None:
@@ -244,3 +276,18 @@ def test_a_measurement_may_be_larger_than_other_bodies(shared_client: TestClient
 )
 def test_no_path_leads_out_of_its_folder(shared_client: TestClient, path: str) -> None:
     assert_error(shared_client.get(f"{URL}{path}"), 404)
+
+
+def test_programs_of_the_own_account_need_no_token_and_browsers_do(
+    opened: Open, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whose connection it is, the kernel says (test_peer.py)."""
+    monkeypatch.setattr(security, "is_own_account", lambda client, server: True)
+    at = {"host": "127.0.0.1", "url": "http://127.0.0.1:8000"}
+    assert opened(**at).get(HEALTH).status_code == 401
+    client = opened(**at, own_programs=True)
+    assert client.get(HEALTH).status_code == 200
+    for header in ("sec-fetch-site", "sec-fetch-mode", "referer"):
+        assert client.get(HEALTH, headers={header: "same-origin"}).status_code == 401
+    monkeypatch.setattr(security, "is_own_account", lambda client, server: False)
+    assert opened(**at, own_programs=True).get(HEALTH).status_code == 401

@@ -16,7 +16,8 @@ from typing import Any
 import pytest
 import uvicorn
 
-from mckibben.server.serving import GuardedProtocol, Seldom, WithoutToken, connections_for
+from mckibben.server.app import TimingMiddleware
+from mckibben.server.serving import GuardedProtocol, JsonLines, Seldom, WithoutToken, connections_for
 from tests.running_server import MAIN, RunningServer
 from tests.server.conftest import run_async
 
@@ -66,7 +67,7 @@ def test_half_requests_keep_nobody_from_being_answered(guarded_server: RunningSe
 def test_the_token_of_a_file_is_asked_for_and_never_written(guarded_server: RunningServer) -> None:
     with pytest.raises(urllib.error.HTTPError) as refused:
         health(guarded_server)
-    assert refused.value.code == 403
+    assert refused.value.code == 401
     refused.value.close()
     opener = urllib.request.build_opener(urllib.request.HTTPCookieProcessor())
     with opener.open(f"{guarded_server.url}/api/health?token={TOKEN}", timeout=20) as answer:
@@ -189,3 +190,59 @@ def test_the_token_in_a_query_is_left_out() -> None:
     )
     assert WithoutToken().filter(line)
     assert line.getMessage() == '127.0.0.1:1 - "GET /?a=1&token=...&b=2 HTTP/1.1" 303'
+
+
+async def exchanged(port: int, sent: bytes) -> bytes:
+    """All that is answered to these bytes on a connection."""
+    reader, writer = await asyncio.open_connection("127.0.0.1", port)
+    writer.write(sent)
+    said = await reader.read()
+    writer.close()
+    await writer.wait_closed()
+    return said
+
+
+async def is_cancelled(scope: Any, receive: Any, send: Any) -> None:
+    raise asyncio.CancelledError
+
+
+@pytest.mark.parametrize(
+    ("sent", "status", "code"),
+    [
+        (b"\x16\x03\x01 nonsense\r\n\r\n", b"400", "bad_request"),
+        (b"GET / HTTP/1.1\r\nhost: a\r\nconnection: close\r\n\r\n", b"503", "unavailable"),
+    ],
+)
+def test_errors_have_one_form_without_exception(sent: bytes, status: bytes, code: str) -> None:
+    """What is no HTTP, and a request that the end of the server cancels, were answered in plain text."""
+    said = asked(TimingMiddleware(is_cancelled), lambda port: exchanged(port, sent))
+    head, _, body = said.partition(b"\r\n\r\n")
+    assert head.startswith(b"HTTP/1.1 " + status)
+    assert json.loads(body)["error"]["code"] == code
+
+
+def test_a_body_slower_than_the_least_rate_is_ended() -> None:
+    """One byte every 19 s kept 62 MB in memory for as long as anybody liked."""
+
+    async def drip(port: int) -> bytes:
+        reader, writer = await asyncio.open_connection("127.0.0.1", port)
+        writer.write(b"POST / HTTP/1.1\r\nhost: a\r\ncontent-length: 9000\r\n\r\n")
+        said = asyncio.ensure_future(reader.read())
+        while not said.done():
+            writer.write(b"x")
+            await asyncio.sleep(0.05)
+        writer.close()
+        return said.result()
+
+    said = asked(says_ok, drip, body_within=5.0, slow_within=0.2, least_rate=1e4)
+    assert said.startswith(b"HTTP/1.1 408 ")
+
+
+def test_lines_of_json_hold_no_query() -> None:
+    arguments = ("127.0.0.1:1", "PUT", "/api/measurements?name=secret.csv&token=secret", "1.1", 200)
+    asked = logging.LogRecord("uvicorn.access", logging.INFO, "", 0, "%s", arguments, None)
+    told = logging.LogRecord("mckibben.server", logging.ERROR, "", 0, "a worker was %s", ("killed",), None)
+    lines = [json.loads(JsonLines().format(record)) for record in (asked, told)]
+    assert lines[0].items() >= {"method": "PUT", "path": "/api/measurements", "status": 200}.items()
+    assert "secret" not in json.dumps(lines[0])
+    assert (lines[1]["level"], lines[1]["message"]) == ("error", "a worker was killed")

@@ -24,7 +24,7 @@ from mckibben.server.long_work import events, finished
 from mckibben.simulation.integrate.lane_buffers import lane_kernels
 from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.simulation.timing.evaluation import ChokedInterval, choked_intervals, grid_of
-from tests.running_server import RunningServer
+from tests.running_server import AUTHORIZED, RunningServer
 from tests.server.answers import valid
 from tests.server.conftest import assert_error, post, run_async
 
@@ -271,10 +271,13 @@ def test_refusals_come_before_a_stream_begins(shared_client: TestClient) -> None
 # --- ending early
 
 
-def test_a_watch_ends_by_the_clock_and_by_the_caller() -> None:
-    watch = Watch(time_limit=0.0)
+def test_a_watch_ends_by_work_and_by_the_caller() -> None:
+    watch = Watch(time_limit=0.01)
     watch.ended(0.0)
-    time.sleep(0.01)
+    time.sleep(0.1)  # while others have the processor
+    assert watch.ended(0.1) is None
+    while time.process_time() - (watch._began or 0.0) < 0.02:
+        pass
     assert watch.ended(0.1) is Outcome.TIMED_OUT
     gone = threading.Event()
     shares: list[float] = []
@@ -352,7 +355,7 @@ def test_an_unexpected_error_in_a_stream_tells_no_traceback(caplog: pytest.LogCa
 def test_the_first_run_of_a_new_process_is_answered(server: RunningServer) -> None:
     with closing(HTTPConnection(urlsplit(server.url).netloc, timeout=30)) as connection:
         body = json.dumps({"drive": LIFT, "points": 401})
-        connection.request("POST", PATH, body, {"content-type": "application/json"})
+        connection.request("POST", PATH, body, {"content-type": "application/json", **AUTHORIZED})
         answer = json.loads(connection.getresponse().read())
     assert answer["outcome"] == "completed"
 

@@ -81,7 +81,7 @@ def test_a_search_whose_time_is_over_answers_with_the_drives_found_so_far(
     valid(SizingResult, answer)
     assert answer["outcome"] == "timed_out"
     assert answer["proposals"]
-    assert "Partial result. The limit of 7 s ended the search" in answer["message"]
+    assert "Partial result. The limit of 7 s of processor time ended the search" in answer["message"]
     text = post(shared_client, f"{PATH}/reports", {"task": TASK}).text
     assert "Not everything was tried" in text
     assert answer["message"] in text.replace(" ", " ")

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import itertools
 import json
+import multiprocessing
 import os
 import signal
-import subprocess
 import sys
 import threading
 import time
 import urllib.error
 import urllib.request
+import warnings
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -22,20 +24,30 @@ from typing import Any, get_args
 import pytest
 from starlette.testclient import TestClient
 
+from mckibben.server import worker
 from mckibben.server.app import create_app
-from mckibben.server.job import LaneName
+from mckibben.server.job import Job, LaneName
 from mckibben.server.lane import BusyError
 from mckibben.server.schemas.curves import CurvesRequest
 from mckibben.server.settings import Settings
+from mckibben.server.supervised import Supervised, _fork_server
 from mckibben.server.workers import Ticket, Workers
-from tests.running_server import RunningServer
+from tests.robustness.load import diagnosis
+from tests.running_server import RunningServer, opener
 from tests.server.conftest import CSV, run_async
 
 DIAGNOSIS = {
     "muscle": {"preset": "DMSP-20", "nominal_length": "300 mm"},
     "measurement": "martens-dmsp-20-300",
 }
-QUICK = DIAGNOSIS | {"effects": {}, "noise": 400.0}  # nothing is above it, so nothing is searched
+_asked = itertools.count()
+
+
+def quick() -> dict[str, Any]:
+    """Nothing is above its noise, so nothing is searched; each is another one, or it would be kept."""
+    return DIAGNOSIS | {"effects": {}, "noise": 400.0 + next(_asked)}
+
+
 CURVES = {"muscle": {"preset": "DMSP-20"}}
 UNKNOWN = DIAGNOSIS | {"measurement": "0" * 64}
 TERM = {"custom": {"term": "c*L", "c": 1.0}}
@@ -57,7 +69,7 @@ def send(
     headers = {"content-type": "application/json", "accept": accept}
     request = urllib.request.Request(server.url + path, data, headers)
     try:
-        with urllib.request.urlopen(request, timeout=300) as answer:
+        with opener().open(request, timeout=300) as answer:
             return answer.status, answer.read().decode(), answer.headers
     except urllib.error.HTTPError as error:
         if error.code == 500:
@@ -94,7 +106,7 @@ def until(condition: Any, within: float = 60.0) -> None:
 
 
 def test_an_answer_of_a_worker_is_that_of_the_server_itself(served: RunningServer) -> None:
-    status, text, _ = send(served, "/api/diagnoses", QUICK)
+    status, text, _ = send(served, "/api/diagnoses", quick())
     assert status == 200
     assert json.loads(text)["verdict"]["status"]
     ideal = DIAGNOSIS | {"effects": {}, "noise": 20.0}  # a search of a second instead of five
@@ -110,11 +122,28 @@ def test_an_answer_of_a_worker_is_that_of_the_server_itself(served: RunningServe
     assert send(served, "/api/diagnoses", UNKNOWN, "text/event-stream")[0] == 404
 
 
+def test_a_finished_diagnosis_is_not_computed_again(served: RunningServer) -> None:
+    """Also after a reload of the page and a restart of the server: it is a file of the data folder."""
+    body = quick()
+    first = send(served, "/api/diagnoses", body)[1]
+    kept = list((served.data / "diagnoses").glob("*.json"))
+    assert send(served, "/api/diagnoses", body)[1] == first  # with the times that the first one took
+    assert sorted((served.data / "diagnoses").glob("*.json")) == sorted(kept)
+    assert send(served, "/api/diagnoses", body | {"noise": 300.0})[1] != first
+    # A project keeps what is about its measurements, and brings it back where it is opened.
+    project = {"title": "Lift", "document": {"cases": [{"measurement": DIAGNOSIS["measurement"]}]}}
+    identity = json.loads(send(served, "/api/projects", project)[1])["project"]["id"]
+    for path in (served.data / "diagnoses").glob("*.json"):
+        path.unlink()
+    assert send(served, f"/api/projects/{identity}", None)[0] == 200
+    assert send(served, "/api/diagnoses", body)[1] == first
+
+
 def test_a_full_queue_is_told_and_curves_are_answered_meanwhile(served: RunningServer) -> None:
     with ThreadPoolExecutor(24) as threads:
-        answers = [threads.submit(send, served, "/api/diagnoses", QUICK) for _ in range(22)]
+        answers = [threads.submit(send, served, "/api/diagnoses", quick()) for _ in range(22)]
         until(lambda: sum(answer.done() for answer in answers) >= 4)
-        status, text, headers = send(served, "/api/diagnoses", QUICK)
+        status, text, headers = send(served, "/api/diagnoses", quick())
         now = health(served)
         assert now["workers"] == 2
         assert now["running"] <= 2  # a short one may just have ended
@@ -129,9 +158,9 @@ def test_a_full_queue_is_told_and_curves_are_answered_meanwhile(served: RunningS
 
 
 def test_a_killed_worker_takes_its_own_job_alone(served: RunningServer) -> None:
-    assert send(served, "/api/diagnoses", QUICK)[0] == 200
+    assert send(served, "/api/diagnoses", quick())[0] == 200
     with ThreadPoolExecutor(1) as threads:
-        answer = threads.submit(send, served, "/api/diagnoses", DIAGNOSIS)
+        answer = threads.submit(send, served, "/api/diagnoses", diagnosis())
         until(lambda: health(served)["running"] == 1)
         time.sleep(0.2)
         for pid in workers_of(served):
@@ -143,27 +172,29 @@ def test_a_killed_worker_takes_its_own_job_alone(served: RunningServer) -> None:
         assert json.loads(text)["error"]["code"] == "stopped"
         assert "nothing else was affected" in text
     assert send(served, "/api/curves", CURVES)[0] == 200
-    assert send(served, "/api/diagnoses", QUICK)[0] == 200
+    assert send(served, "/api/diagnoses", quick())[0] == 200
 
 
 @pytest.mark.examination("test_a_killed_worker_takes_its_own_job_alone")
 def test_an_idle_worker_that_is_killed_costs_no_job(served: RunningServer) -> None:
-    assert send(served, "/api/diagnoses", QUICK)[0] == 200
+    assert send(served, "/api/diagnoses", quick())[0] == 200
     for pid in workers_of(served):
         with contextlib.suppress(ProcessLookupError):
             os.kill(pid, signal.SIGKILL)
     # The next job may be given away before anybody has noticed.
     assert send(served, "/api/curves", CURVES | {"effects": TERM})[0] == 200
-    assert send(served, "/api/diagnoses", QUICK)[0] == 200
+    assert send(served, "/api/diagnoses", quick())[0] == 200
 
 
 @pytest.mark.examination("test_a_full_queue_is_told_and_curves_are_answered_meanwhile")
 def test_a_typed_term_and_a_file_do_not_wait_for_diagnoses(served: RunningServer) -> None:
-    data = json.dumps(DIAGNOSIS).encode()
     headers = {"content-type": "application/json", "accept": "text/event-stream"}
-    request = urllib.request.Request(served.url + "/api/diagnoses", data, headers)
+    requests = [
+        urllib.request.Request(served.url + "/api/diagnoses", json.dumps(diagnosis()).encode(), headers)
+        for _ in range(4)
+    ]
     with contextlib.ExitStack() as asked:
-        streams = [asked.enter_context(urllib.request.urlopen(request, timeout=60)) for _ in range(4)]
+        streams = [asked.enter_context(opener().open(request, timeout=60)) for request in requests]
         until(lambda: health(served)["waiting"] == 2)
         assert send(served, "/api/curves", CURVES | {"effects": TERM})[0] == 200
         lanes = {lane["name"]: lane for lane in health(served)["lanes"]}
@@ -172,7 +203,7 @@ def test_a_typed_term_and_a_file_do_not_wait_for_diagnoses(served: RunningServer
         comparison = DIAGNOSIS | {"effects": TERM}
         assert send(served, "/api/comparisons", comparison)[0] == 200
         upload = urllib.request.Request(f"{served.url}/api/measurements?name=a.csv", CSV, method="PUT")
-        with urllib.request.urlopen(upload, timeout=60) as answer:
+        with opener().open(upload, timeout=60) as answer:
             assert answer.status == 200
         # All this was done before half of the diagnoses; nobody waits for them.
         assert health(served)["running"] + health(served)["waiting"] >= 2
@@ -195,14 +226,14 @@ def test_jobs_that_have_ended_hold_no_descriptors(served: RunningServer) -> None
 
 
 def test_whoever_leaves_frees_the_worker(served: RunningServer) -> None:
-    data = json.dumps(DIAGNOSIS).encode()
+    data = json.dumps(diagnosis()).encode()
     headers = {"content-type": "application/json", "accept": "text/event-stream"}
     for _ in range(3):
         request = urllib.request.Request(served.url + "/api/diagnoses", data, headers)
-        with urllib.request.urlopen(request, timeout=60) as answer:
+        with opener().open(request, timeout=60) as answer:
             answer.readline()
     until(lambda: health(served)["running"] == 0, within=10.0)
-    assert send(served, "/api/diagnoses", QUICK)[0] == 200
+    assert send(served, "/api/diagnoses", quick())[0] == 200
 
 
 @pytest.mark.parametrize(
@@ -222,7 +253,7 @@ def test_the_server_ends_under_work_and_leaves_no_process(
         told: list[str] = []
 
         def ask() -> None:
-            told.append(send(server, "/api/diagnoses", DIAGNOSIS, "text/event-stream")[1])
+            told.append(send(server, "/api/diagnoses", diagnosis(), "text/event-stream")[1])
 
         asking = threading.Thread(target=ask)
         asking.start()
@@ -238,39 +269,95 @@ def test_the_server_ends_under_work_and_leaves_no_process(
         assert "the server is ending" in told[0]  # as the last event, or as the answer if it had not begun
 
 
-@pytest.mark.examination("test_a_killed_worker_takes_its_own_job_alone")
-def test_processes_that_take_no_jobs_are_replaced(
-    tmp_path: Path, compiled_kernels: None, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """As after a kill at the moment in which a process takes a job from the pipe of all."""
-    body = CurvesRequest.model_validate(CURVES)
-    workers = Workers(Settings(workers=1, data=tmp_path))
+def pid_of(process: Supervised) -> int:
+    assert process.pid
+    return process.pid
 
-    async def job() -> bytes:
-        ticket = workers.enter()
-        assert await ticket.place() is None
-        running = await workers.submit(ticket, "computation of curves", body)
-        while await running.news.get() is not None:
-            pass
-        return await workers.result(running)
 
-    async def both() -> None:
-        before = set(children(os.getpid()))
-        first = await job()
-        frozen = [pid for middle in set(children(os.getpid())) | before for pid in children(middle)]
-        for pid in frozen:
-            os.kill(pid, signal.SIGSTOP)
-        monkeypatch.setattr("mckibben.server.workers._BEGINS_WITHIN", 8.0)
+def stop(pid: int | None) -> None:
+    """Stop a process; on a busy machine its threads go on for a while after the signal."""
+    assert pid
+    os.kill(pid, signal.SIGSTOP)
+    until(lambda: Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] == "T")
+
+
+async def job(workers: Workers, body: CurvesRequest) -> bytes:
+    """One job, from the queue to its answer."""
+    ticket = workers.enter()
+    assert await ticket.place() is None
+    running = await workers.submit(ticket, "computation of curves", body)
+    while await running.news.get() is not None:
+        pass
+    return await workers.result(running)
+
+
+async def replaced(workers: Workers, before: Supervised) -> None:
+    while not (workers._processes and workers._processes[0] is not before and workers._processes[0].ready):
+        await asyncio.sleep(0.02)
+
+
+def test_each_kill_is_one_replacement(tmp_path: Path, compiled_kernels: None) -> None:
+    """At the moment of the death, without a job that asks for it."""
+    body, workers = CurvesRequest.model_validate(CURVES), Workers(Settings(workers=1, data=tmp_path))
+
+    async def run() -> None:
         try:
-            assert await job() == first
-            assert workers._parked == []  # each would hold descriptors as long as the server runs
+            first = await job(workers, body)
+            for number in (1, 2):
+                before = workers._processes[0]
+                os.kill(pid_of(before), signal.SIGKILL)
+                await replaced(workers, before)
+                assert workers.ended == {"killed": number}
+            assert await job(workers, body) == first
         finally:
-            for pid in frozen:
-                with contextlib.suppress(ProcessLookupError):
-                    os.kill(pid, signal.SIGCONT)
             await asyncio.to_thread(workers.close)
 
-    run_async(both())
+    run_async(run())
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="sees by /proc whether a process is stopped")
+@pytest.mark.examination("test_each_kill_is_one_replacement")
+def test_stopped_processes_are_replaced(
+    tmp_path: Path, compiled_kernels: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The fork server, and a worker: they say nothing and do not end by themselves."""
+    body, workers = CurvesRequest.model_validate(CURVES), Workers(Settings(workers=1, data=tmp_path))
+    monkeypatch.setattr("mckibben.server.supervised._MADE_WITHIN", 1.0)
+
+    async def run() -> None:
+        try:
+            first = await job(workers, body)
+            before = workers._processes[0]
+            stop(_fork_server())
+            os.kill(pid_of(before), signal.SIGKILL)
+            assert await job(workers, body) == first
+            monkeypatch.setattr("mckibben.server.supervised._TAKEN_WITHIN", 0.5)
+            stop(pid_of(workers._processes[0]))
+            assert await job(workers, body) == first
+            assert workers.ended["silent"] == 1
+            # The end does not wait for a fork server that cannot tell how processes end.
+            stop(_fork_server())
+        finally:
+            await asyncio.to_thread(workers.close)
+
+    run_async(run())
+
+
+def test_work_has_an_end_in_native_code_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    """By processor time: what others take of the processor is not taken from it."""
+    endless = Job(lambda *_: lambda _: bytes(sum(range(10**15))), time_limit=1.0, looks=False)
+    monkeypatch.setattr(worker, "JOBS", {"endless": endless})
+    read, write = multiprocessing.Pipe()
+    own = SimpleNamespace(studio=None, store=None, memory=1)
+    forked = multiprocessing.get_context("fork").Process(
+        target=worker._perform, args=(worker.Order(1, "endless", None), own, worker._Line(write))
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)
+        forked.start()
+    forked.join(60)
+    assert forked.exitcode == -signal.SIGXCPU
+    assert read.recv().kind == "prepared"
 
 
 def queue(workers: int, length: int) -> Workers:
@@ -326,35 +413,3 @@ def test_every_lane_starts_when_the_page_looks_at_measurements(settings: Setting
         TestClient(app, base_url=f"http://127.0.0.1:{settings.port}").get("/api/mysteries").status_code == 200
     )
     assert sorted(started) == sorted(get_args(LaneName))
-
-
-_TOO_LATE = """
-import _multiprocessing, multiprocessing, os, sys
-
-def main():
-    context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload(sys.argv[1:])
-    lock = context.Lock()
-    _multiprocessing.sem_unlink(lock._semlock.name)
-    process = context.Process(target=os.getpid, args=(lock,))
-    process.start()
-    process.join()
-    print(process.exitcode)
-    os._exit(0)
-
-if __name__ == "__main__":
-    main()
-"""
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no fork server")
-@pytest.mark.parametrize(("loaded", "says"), [("mckibben.server.forked", False), ("json", True)])
-def test_a_worker_that_comes_too_late_ends_without_a_traceback(
-    tmp_path: Path, loaded: str, says: bool
-) -> None:
-    """The locks of its pool are gone; the other module shows that this is where Python would print one."""
-    script = tmp_path / "late.py"
-    script.write_text(_TOO_LATE, "utf-8")
-    ended = subprocess.run([sys.executable, script, loaded], capture_output=True, text=True, check=True)
-    assert ended.stdout == "1\n"
-    assert ("Traceback" in ended.stderr) == says, ended.stderr

@@ -72,9 +72,10 @@ def export_to(store: ProjectStore, name: str, out: Path) -> None:
         InputError: the file cannot be written.
     """
     check_written(out, "--out", (".zip",))
-    _, content = packed(store, found_project(store, name).id)
+    identity = found_project(store, name).id
     try:
-        out.write_bytes(content)
+        with out.open("wb") as into:
+            packed(store, identity, into)
     except OSError as error:
         raise InputError(f"--out {out}: {error.strerror or error}", hint="name another file") from error
     remark(f"project: {out}")
@@ -86,12 +87,13 @@ def import_from(store: ProjectStore, file: Path, data: Path | None) -> None:
     Raises:
         InputError: it is not a packed project, or cannot be read.
     """
+    measurements = MeasurementStore(folders(None, None, data).data)
     try:
-        content = file.read_bytes()
+        source = file.open("rb")
     except OSError as error:
         raise InputError(f"{file}: {error.strerror or error}", hint="name a file that can be read") from error
-    measurements = MeasurementStore(folders(None, None, data).data)
-    project = unpacked(content, store, measurements)
+    with source:
+        project = unpacked(source, store, measurements)
     remark(f"{project.summary.title}: project {project.summary.id[:8]}")
 
 

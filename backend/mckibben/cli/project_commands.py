@@ -76,7 +76,7 @@ def import_project(
 
 @project.command("delete")
 def delete(name: Named, data: DataFolder = None, projects: ProjectsAddress = "") -> None:
-    """Put a project into the bin, where it stays for 30 days."""
+    """Put a project into the bin, where it stays until its room is needed."""
     from mckibben.cli.project import delete_project, open_store
 
     delete_project(open_store(data, projects), name)

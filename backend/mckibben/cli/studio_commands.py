@@ -39,10 +39,17 @@ class LogLevel(StrEnum):
     debug = "debug"
 
 
+class LogFormat(StrEnum):
+    """How it is written."""
+
+    text = "text"
+    json = "json"
+
+
 @app.command()
 def serve(
     host: str = typer.Option(
-        "127.0.0.1", help="Address to listen on; any address but loopback requires a token."
+        "127.0.0.1", help="Address to listen on; any but loopback needs --certfile, or --insecure."
     ),
     port: int | None = typer.Option(
         None, min=0, max=65535, help="Port; 0 = any free port. Default: 8000, or the next free one."
@@ -58,18 +65,45 @@ def serve(
         Path | None,
         typer.Option(
             metavar="FILE",
-            help="Take the token from this file instead of a new one at each start; also MCKIBBEN_TOKEN.",
+            help="Take the token from this file; also MCKIBBEN_TOKEN. Else it is in the file 'token' of the "
+            "data folder, and a new one at each start on addresses that others can reach.",
         ),
     ] = None,
+    uds: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="PATH", help="Listen on a Unix socket that only you can open, instead of an address."
+        ),
+    ] = None,
+    certfile: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Certificate (PEM): the server speaks HTTPS.")
+    ] = None,
+    keyfile: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Its key, where it is not in the same file.")
+    ] = None,
+    insecure: bool = typer.Option(
+        False,
+        "--insecure",
+        help="With --host: send token and data in clear text, which everybody on the way can read.",
+    ),
     log_level: Annotated[LogLevel, typer.Option(help="What is written to the terminal.")] = LogLevel.warning,
+    log_format: Annotated[
+        LogFormat, typer.Option(help="How: lines for people, or a JSON object a line, without data or token.")
+    ] = LogFormat.text,
     access_log: bool | None = typer.Option(
         None,
         "--access-log/--no-access-log",
         help="A line for each request. Default: only on addresses that others can reach.",
     ),
-    quota: float = typer.Option(
-        4.0, min=0.001, metavar="GB", help="How much kept measurements may take on the disk."
-    ),
+    quota: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="KIND=GB",
+            help="How much what is kept may take on the disk: measurements=4, projects=4, studies=0.5, "
+            "diagnoses=0.2, presets=0.1 (the defaults); a number alone is that of measurements. "
+            "May be repeated.",
+        ),
+    ] = None,
     presets: PresetsFolder = None,
     effects: EffectsFolders = None,
     data: DataFolder = None,
@@ -84,9 +118,13 @@ def serve(
         open_browser=not no_open,
         workers=workers,
         token_file=token_file,
+        uds=uds,
+        certificate=None if certfile is None else (certfile, keyfile),
+        insecure=insecure,
         log_level=log_level.value,
+        log_json=log_format is LogFormat.json,
         access_log=access_log,
-        quota=quota,
+        quota=quota or [],
         presets=presets,
         effects=effects or [],
         data=data,

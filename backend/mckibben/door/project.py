@@ -94,12 +94,13 @@ class Project:
         from mckibben.measurement.store import MeasurementStore
 
         try:
-            content = Path(path).read_bytes()
+            source = Path(path).open("rb")  # noqa: SIM115 - closed below
         except OSError as error:
             words = f"{path}: {error.strerror or error}"
             raise InputError(words, hint="name a file that can be read") from error
         projects = _store()
-        return cls(projects, unpacked(content, projects, MeasurementStore(user_folder())))
+        with source:
+            return cls(projects, unpacked(source, projects, MeasurementStore(user_folder())))
 
     @property
     def id(self) -> str:
@@ -166,9 +167,9 @@ class Project:
         Raises:
             Problem: the file cannot be written.
         """
-        content = packed(self._projects, self.id)[1]
         try:
-            Path(path).write_bytes(content)
+            with Path(path).open("wb") as into:
+                packed(self._projects, self.id, into)
         except OSError as error:
             words = f"{path}: {error.strerror or error}"
             raise InputError(words, hint="name another file") from error

@@ -15,7 +15,6 @@ import os
 import re
 import tempfile
 import threading
-import time
 from collections import OrderedDict
 from collections.abc import Callable, Iterator
 from contextvars import ContextVar
@@ -23,18 +22,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from mckibben.folder import DELETED, KEPT_DELETED, deleted, locked, restore
+from mckibben.folder import DELETED, QUOTAS, Quotas, deleted, is_full, locked, no_space, restore
 from mckibben.folder import delete as move_away
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.reading import Correction, read_correction, read_measurement
-from mckibben.measurement.reading.limits import size_of
 from mckibben.physics.errors import InputError
 
 _ID = re.compile(r"[0-9a-f]{64}")
 _KEPT_IN_MEMORY = 8
 _MOST_IN_MEMORY = 256_000_000  # bytes, of all but the last one
-DEFAULT_QUOTA = 4_000_000_000  # bytes
-_STALE = 3600.0  # s; the process of an older temporary file has ended
 MAX_NAME = 200
 
 
@@ -55,6 +51,7 @@ class KeptFile:
         size: of the file [bytes].
         changed: when it was stored, renamed or deleted [s since 1970].
         corrected: whether it is read with corrections of the user.
+        content: SHA-256 of the file.
     """
 
     id: str
@@ -62,6 +59,7 @@ class KeptFile:
     size: int
     changed: float
     corrected: bool
+    content: str
 
 
 class MeasurementStore:
@@ -69,11 +67,11 @@ class MeasurementStore:
 
     Args:
         folder: where they are stored; created on the first upload.
-        quota: most bytes that all may take, None = `DEFAULT_QUOTA`.
+        quotas: most bytes that each kind of what is kept in the folder of the user's data may take.
     """
 
-    def __init__(self, folder: Path, *, quota: int | None = None) -> None:
-        self.quota = DEFAULT_QUOTA if quota is None else quota
+    def __init__(self, folder: Path, *, quotas: Quotas = QUOTAS) -> None:
+        self.quotas = quotas
         #: The folder of the user's data.
         self.data = folder
         self._folder = folder / "measurements"
@@ -99,10 +97,20 @@ class MeasurementStore:
         with self._changing("stored") as folder:
             _remove_stale(folder)
             data = folder / f"{digest}.data"
-            if not data.exists() or data.stat().st_size != len(content):
-                self._make_room(len(content))
-                _write(data, content)
-            _write(folder / f"{measurement.id}.json", json.dumps(about).encode())
+
+            def write() -> None:
+                if not data.exists() or data.stat().st_size != len(content):
+                    self._make_room(len(content))
+                    _write(data, content)
+                _write(folder / f"{measurement.id}.json", json.dumps(about).encode())
+
+            try:
+                write()
+            except OSError as error:
+                if not is_full(error):
+                    raise
+                self._forget(lambda _: True)
+                write()
             (folder / DELETED / f"{measurement.id}.json").unlink(missing_ok=True)
         self._remember(measurement.id, measurement)
         return measurement
@@ -177,6 +185,11 @@ class MeasurementStore:
                 total += path.stat().st_size
         return total
 
+    def restorable(self) -> int:
+        """What erasing all that was deleted would free [bytes]."""
+        kept = {file.content for file in self.kept()}
+        return sum({file.content: file.size for file in self.deleted() if file.content not in kept}.values())
+
     def rename(self, identity: str, name: str, was: str | None = None) -> KeptFile:
         """Give a stored file another name.
 
@@ -201,20 +214,34 @@ class MeasurementStore:
             self._recent.pop(identity, None)  # it holds the old name
         return self._known(path)
 
-    def delete(self, identity: str) -> KeptFile:
-        """Delete a stored file; it can be restored until its room is needed, for 30 days at most.
+    def delete(self, identity: str, *, erase: bool = False) -> KeptFile:
+        """Delete a stored file; it can be restored until its room is needed.
+
+        Args:
+            identity: of the measurement.
+            erase: whether it shall be gone now, also where it was deleted before.
 
         Raises:
             InputError: code ``not_found``, there is no such file.
         """
         with self._changing("deleted"):
-            path = self._present(identity)
-            file = self._known(path)
-            move_away(path)
-            self._forget(lambda old: time.time() - old.stat().st_mtime > KEPT_DELETED)
+            path = self._path(identity)
+            binned = path.parent / DELETED / path.name
+            place = binned if erase and not path.is_file() and binned.is_file() else self._present(identity)
+            file = self._known(place)
+            if erase:
+                place.unlink()
+                self._drop(file.content)
+            else:
+                move_away(place)
         with self._lock:
             self._recent.pop(identity, None)
         return file
+
+    def empty_bin(self) -> None:
+        """Erase what was deleted."""
+        with self._changing("erased"):
+            self._forget(lambda _: True)
 
     def restore(self, identity: str) -> KeptFile:
         """Bring a deleted file back; one that is there stays as it is.
@@ -259,7 +286,8 @@ class MeasurementStore:
             changed = path.stat().st_mtime
         except OSError:
             return None
-        return KeptFile(path.stem, clean_name(str(about.get("name", ""))), size, changed, "content" in about)
+        name = clean_name(str(about.get("name", "")))
+        return KeptFile(path.stem, name, size, changed, "content" in about, content)
 
     def _known(self, path: Path) -> KeptFile:
         file = self._kept(path)
@@ -274,23 +302,32 @@ class MeasurementStore:
             with locked(self._folder):
                 yield self._folder
         except OSError as error:
-            raise InputError(
-                f"the measurement cannot be {what}: {error.strerror or error}",
-                hint="start the server with --data and a writable folder",
-                code="conflict",
-            ) from error
+            raise self.unusable(what, error) from error
+
+    def unusable(self, what: str, error: OSError) -> InputError:
+        """What there is to say of a folder that does not take or give a file.
+
+        Args:
+            what: that the measurement should have been.
+            error: of the system.
+        """
+        if is_full(error):
+            taken, quota = self.size(), self.quotas.measurements
+            return no_space("measurements", taken=taken, quota=quota, folder=self.data)
+        return InputError(
+            f"the measurement cannot be {what}: {error.strerror or error}",
+            hint="start the server with --data and a writable folder",
+            code="conflict",
+        )
 
     def _make_room(self, size: int) -> None:
         """Refuse a file for which there is no room, also without what was deleted."""
-        if self.size() + size <= self.quota:
+        if self.size() + size <= self.quotas.measurements:
             return
-        self._forget(lambda _: self.size() + size > self.quota)
-        if (taken := self.size()) + size > self.quota:
-            raise InputError(
-                f"the kept measurements take {size_of(taken)} of {size_of(self.quota)}, "
-                f"this one needs {size_of(size)}",
-                hint="delete some (Catalogue, Kept), or start the server with a larger --quota",
-                code="conflict",
+        self._forget(lambda _: self.size() + size > self.quotas.measurements)
+        if (taken := self.size()) + size > self.quotas.measurements:
+            raise no_space(
+                "measurements", taken=taken, quota=self.quotas.measurements, needs=size, folder=self.data
             )
 
     def _forget(self, whether: Callable[[Path], bool]) -> None:
@@ -300,13 +337,28 @@ class MeasurementStore:
                 continue
             content = str(_about(path).get("content", path.stem))
             path.unlink(missing_ok=True)
-            if _ID.fullmatch(content) and not self._is_named(content):
-                (self._folder / f"{content}.data").unlink(missing_ok=True)
+            self._drop(content)
+
+    def _drop(self, content: str) -> None:
+        """Remove a content that nothing names any more."""
+        if _ID.fullmatch(content) and not self._is_named(content):
+            (self._folder / f"{content}.data").unlink(missing_ok=True)
 
     def _is_named(self, content: str) -> bool:
         """Whether a kept or deleted measurement is of this content."""
         others = (*self._folder.glob("*.json"), *deleted(self._folder))
         return any(content == str(_about(other).get("content", other.stem)) for other in others)
+
+    def has(self, identity: str) -> bool:
+        """Whether there is a measurement of this id, deleted or not."""
+        about = _about(self._folder / f"{identity}.json") if _ID.fullmatch(identity) else {}
+        content = str(about.get("content", identity))
+        return bool(about and _ID.fullmatch(content)) and (self._folder / f"{content}.data").is_file()
+
+    def name_of(self, identity: str) -> str:
+        """How a stored file is called; empty if there is none."""
+        about = _about(self._folder / f"{identity}.json") if _ID.fullmatch(identity) else {}
+        return clean_name(str(about["name"])) if "name" in about else ""
 
     def original(self, identity: str) -> tuple[str, bytes, str | None] | None:
         """Name, content and mapping of a stored measurement, as uploaded; None if there is none."""
@@ -377,11 +429,9 @@ def _about(path: Path) -> dict[str, Any]:
 
 
 def _remove_stale(folder: Path) -> None:
-    """Remove old temporary files of processes that were killed."""
+    """Remove temporary files of processes that were killed: whoever writes keeps the folder locked."""
     for path in folder.glob(".*.tmp"):
-        with contextlib.suppress(OSError):
-            if time.time() - path.stat().st_mtime > _STALE:
-                path.unlink()
+        path.unlink(missing_ok=True)
 
 
 def _write(path: Path, content: bytes) -> None:

@@ -18,7 +18,8 @@ class InputError(ValueError):
         message: what is wrong ("braid angle 95° is not between 0° and 90°").
         field: where, as a path of the request or file ("muscle.braid_angle", "row 7, column force").
         hint: what would be right ("e.g. '25 deg'").
-        code: machine-readable kind; ``not_found`` becomes HTTP 404, ``conflict`` 409, everything else 422.
+        code: machine-readable kind; ``not_found`` becomes HTTP 404, ``conflict`` 409, ``unavailable`` 503 (it
+            may work later), ``no_space`` 507, everything else 422.
     """
 
     def __init__(

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any, NamedTuple, cast, get_args
 
 from mckibben.facts.result import result_class
-from mckibben.folder import locked
+from mckibben.folder import QUOTAS, is_full, locked, no_space
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.presets.quantity import Finding
 from mckibben.presets.reading import KINDS, MAX_BYTES, BadDocumentError, parse, read_file, slug
@@ -135,6 +135,8 @@ class PresetLibrary:
             raise FileNotFoundError(f"there is no preset folder {self._folder}")
         self.user_folder = None if user_folder is None else Path(user_folder)
         self.effects = effects
+        #: Most bytes that the user's presets may take, with those that can be restored.
+        self.quota = QUOTAS.presets
         self._lock = threading.RLock()
         self._built_in = self._shelves()
         self._user = {kind: _Shelf() for kind in KINDS}
@@ -239,6 +241,10 @@ class PresetLibrary:
         content = written(preset)
         if len(content) > MAX_BYTES:
             raise InputError(f"the preset is larger than {MAX_BYTES // 1_000_000} MB")
+        if (taken_space := self.own_size()) + len(content) > self.quota:
+            raise no_space(
+                "presets", taken=taken_space, quota=self.quota, needs=len(content), folder=self.user_folder
+            )
         with self._lock:
             taken = self._all("muscles").get(preset.id.lower())
             if taken is not None and (taken.origin == "built-in" or taken.id != preset.id):
@@ -252,6 +258,10 @@ class PresetLibrary:
                 write(folder, f"{preset.id}.json", content)
             saved = self.muscle(preset.id)
         return saved
+
+    def own_size(self) -> int:
+        """What the presets of the user take on the disk, without those that can be restored [bytes]."""
+        return sum(entry[2] for kind in KINDS for entry in self._files_of(kind))
 
     def own_file(self, kind: str, preset_id: str) -> Path:
         """The file of a preset of the user.
@@ -310,6 +320,8 @@ class PresetLibrary:
         except (FileNotFoundError, FileExistsError):
             raise
         except OSError as error:
+            if is_full(error):
+                raise no_space("presets", taken=self.own_size(), quota=self.quota, folder=root) from error
             raise InputError(
                 f"the preset cannot be written: {error.strerror or error}", code="conflict"
             ) from error

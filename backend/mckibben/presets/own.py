@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import time
 from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple
 
-from mckibben.folder import KEPT_DELETED, delete, deleted, restore
+from mckibben.folder import DELETED, delete, deleted, restore, size_of_deleted
 from mckibben.physics.errors import InputError
 from mckibben.presets.library import PresetLibrary, write, written
 from mckibben.presets.reading import KINDS, BadDocumentError, parse, slug
@@ -71,17 +70,43 @@ class OwnPresets:
         with self._library.changing(kind, path.name) as folder:
             write(folder, path.name, written(renamed))
 
-    def delete(self, kind: str, preset_id: str) -> None:
-        """Delete a preset of the user; it can be restored for 30 days.
+    def size(self) -> tuple[int, int]:
+        """What all presets of the user take, with what can be restored, and the latter alone [bytes]."""
+        if self._library.user_folder is None:
+            return 0, 0
+        binned = sum(size_of_deleted(self._library.user_folder / kind) for kind in KINDS)
+        return self._library.own_size() + binned, binned
+
+    def empty_bin(self) -> None:
+        """Erase what was deleted."""
+        if self._library.user_folder is not None:
+            for kind in KINDS:
+                for path in deleted(self._library.user_folder / kind):
+                    path.unlink(missing_ok=True)
+
+    def delete(self, kind: str, preset_id: str, *, erase: bool = False) -> None:
+        """Delete a preset of the user; it can be restored until its room is needed.
+
+        Args:
+            kind, preset_id: of the preset.
+            erase: whether it shall be gone now, also where it was deleted before.
 
         Raises:
             InputError: there is none of this id; code ``conflict``: it is one of the program.
         """
+        if erase and self._library.user_folder is not None and kind in KINDS:
+            binned = self._library.user_folder / kind / DELETED / f"{slug(preset_id)}.json"
+            if binned.is_file():
+                binned.unlink()
+                return
         path = self._library.own_file(kind, preset_id)
         with self._library.changing(kind, path.name):
+            if erase:
+                path.unlink()
+                return
             delete(path)
-            for old in deleted(path.parent):
-                if time.time() - old.stat().st_mtime > KEPT_DELETED:
+            for old in reversed(deleted(path.parent)):
+                if self.size()[0] > self._library.quota:
                     old.unlink(missing_ok=True)
 
     def restore(self, kind: str, preset_id: str) -> None:

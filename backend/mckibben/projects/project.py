@@ -50,6 +50,19 @@ class StoredStudy:
     content: bytes
 
 
+@dataclass(frozen=True, slots=True)
+class StoredAnswer:
+    """A finished diagnosis in a project.
+
+    Attributes:
+        name: names all that it depends on; nothing but its own question finds it.
+        content: as it was kept.
+    """
+
+    name: str
+    content: bytes
+
+
 @result_class
 class ProjectSummary:
     """A project in a list; instants are seconds since 1970 (UTC)."""

@@ -7,10 +7,11 @@ that it began with, and is refused where the project has a later one.
 from __future__ import annotations
 
 import builtins
+import contextlib
 import hashlib
 import json
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from typing import Any
 from uuid import uuid4
 
@@ -18,6 +19,7 @@ from sqlalchemy import delete, func, select, update
 from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.orm import Session
 
+from mckibben.folder import QUOTAS, no_space
 from mckibben.physics.errors import InputError
 from mckibben.projects.database import Database
 from mckibben.projects.project import (
@@ -27,6 +29,7 @@ from mckibben.projects.project import (
     Project,
     ProjectSummary,
     Revision,
+    StoredAnswer,
     StoredFile,
     StoredStudy,
     checked_history,
@@ -34,14 +37,14 @@ from mckibben.projects.project import (
     checked_title,
     is_version,
 )
-from mckibben.projects.tables import ContentRow, FileRow, ProjectRow, RevisionRow, StudyRow
+from mckibben.projects.tables import AnswerRow, ContentRow, FileRow, ProjectRow, RevisionRow, StudyRow
 
 _MERGED = 300_000  # ms; automatic saves in the same span of this length are one revision
 
 _MOST_REVISIONS = 200  # of a project; the oldest automatic ones give way first
-_BIN = 30 * 86_400_000  # ms that a deleted project can be restored
 _MOST_LABEL = 200
 _MOST_STUDIES, _MOST_STUDY_BYTES = 8, 40_000_000  # of a project; those saved first give way
+_MOST_ANSWERS, _MOST_ANSWER_BYTES = 32, 40_000_000  # of a project; those saved first give way
 
 
 class ProjectStore:
@@ -51,10 +54,12 @@ class ProjectStore:
 
     Args:
         database: where they are.
+        quota: most bytes that all may take, with those in the bin, which is emptied before more are refused.
     """
 
-    def __init__(self, database: Database) -> None:
+    def __init__(self, database: Database, *, quota: int = QUOTAS.projects) -> None:
         self._database = database
+        self.quota = quota
 
     @property
     def place(self) -> str:
@@ -80,13 +85,13 @@ class ProjectStore:
         notes: str = "",
         files: Iterable[StoredFile] = (),
         studies: Iterable[StoredStudy] = (),
+        answers: Iterable[StoredAnswer] = (),
         label: str = "created",
     ) -> Project:
         """A new project with its first revision."""
         text, title, notes = _text_of(document), checked_title(title), checked_notes(notes)
         identity, now = uuid4().hex, _now()
-        with self._database.session(writes=True) as session:
-            empty_bin(session, now)
+        with self._writing(len(text)) as session:
             session.add(
                 ProjectRow(id=identity, title=title, notes=notes, version=1, created=now, changed=now)
             )
@@ -94,6 +99,7 @@ class ProjectStore:
             add_revision(session, identity, 1, now, label, automatic=False, text=text)
             keep_files(session, identity, files)
             keep_studies(session, identity, studies, now)
+            keep_answers(session, identity, answers, now)
             return opened(session, identity)
 
     def open(self, identity: str, version: int | None = None) -> Project:
@@ -101,17 +107,40 @@ class ProjectStore:
         with self._database.session() as session:
             return opened(session, identity, version)
 
-    def files(self, identity: str) -> builtins.list[StoredFile]:
-        """The measurement files of a project, with their content."""
+    def files(self, identity: str) -> Iterator[StoredFile]:
+        """The measurement files of a project, one after the other: all at once may be more than fits."""
         with self._database.session() as session:
             row_of(session, identity)
-            rows = session.execute(
-                select(FileRow, ContentRow.data)
-                .join(ContentRow, ContentRow.digest == FileRow.digest)
-                .where(FileRow.project == identity)
-                .order_by(FileRow.measurement)
-            )
-            return [StoredFile(row.measurement, row.name, data, row.mapping) for row, data in rows]
+            order = select(FileRow.measurement).where(FileRow.project == identity)
+            measurements = session.scalars(order.order_by(FileRow.measurement)).all()
+        for measurement in measurements:
+            with self._database.session() as session:
+                row = session.get(FileRow, (identity, measurement))
+                content = None if row is None else session.get(ContentRow, row.digest)
+                if row is None or content is None:  # erased meanwhile
+                    continue
+                file = StoredFile(row.measurement, row.name, content.data, row.mapping)
+            yield file
+
+    def answers(self, identity: str, known: Collection[str] = ()) -> Iterator[StoredAnswer]:
+        """The finished diagnoses of a project, without known ones, one after the other."""
+        for name in sorted(self.answer_names(identity) - set(known)):
+            with self._database.session() as session:
+                row = session.get(AnswerRow, (identity, name))
+                content = None if row is None else session.get(ContentRow, row.digest)
+                data = None if content is None else content.data
+            if data is not None:
+                yield StoredAnswer(name, data)
+
+    def answer_names(self, identity: str) -> set[str]:
+        """Names of the finished diagnoses kept with a project; none of a project that is not there."""
+        with self._database.session() as session:
+            return set(session.scalars(select(AnswerRow.name).where(AnswerRow.project == identity)))
+
+    def measurements(self, identity: str) -> set[str]:
+        """Ids of the measurements kept with a project; none of a project that is not there."""
+        with self._database.session() as session:
+            return set(session.scalars(select(FileRow.measurement).where(FileRow.project == identity)))
 
     def studies(self, identity: str) -> builtins.list[StoredStudy]:
         """The study tables of a project, the one saved last first."""
@@ -133,6 +162,7 @@ class ProjectStore:
         base_version: int,
         files: Iterable[StoredFile] = (),
         studies: Iterable[StoredStudy] = (),
+        answers: Iterable[StoredAnswer] = (),
         label: str = "saved",
         automatic: bool = False,
     ) -> Project:
@@ -144,7 +174,8 @@ class ProjectStore:
             base_version: version that the document was made from.
             files: all its measurements; those that are no longer named stay as long as an earlier revision
                 may name them.
-            studies: tables of studies to be kept with it; those kept before stay.
+            studies, answers: tables of studies and finished diagnoses to be kept with it; those kept before
+                stay.
             label: what was done.
             automatic: whether the program saves by itself; such revisions replace each other for some
                 minutes.
@@ -153,7 +184,7 @@ class ProjectStore:
             ChangedElsewhereError: the project has another version.
         """
         text, now = _text_of(document), _now()
-        with self._database.session(writes=True) as session:
+        with self._writing(len(text)) as session:
             version = next_version(session, identity, base_version, now)
             before = session.get(RevisionRow, (identity, base_version))
             if automatic and before is not None and before.automatic and _same_span(before.saved, now):
@@ -162,6 +193,7 @@ class ProjectStore:
             thin(session, identity)
             keep_files(session, identity, files)
             keep_studies(session, identity, studies, now)
+            keep_answers(session, identity, answers, now)
             return opened(session, identity)
 
     def describe(
@@ -172,7 +204,7 @@ class ProjectStore:
         Raises:
             ChangedElsewhereError: the project has another version.
         """
-        with self._database.session(writes=True) as session:
+        with self._writing(0) as session:
             row, now = row_of(session, identity), _now()
             values = {
                 "title": row.title if title is None else checked_title(title),
@@ -197,11 +229,12 @@ class ProjectStore:
             notes=project.summary.notes,
             files=self.files(identity),
             studies=self.studies(identity),
+            answers=self.answers(identity),
             label=f"copy of version {project.revision.version}",
         )
 
     def delete(self, identity: str) -> ProjectSummary:
-        """Put a project into the bin, from which it can be restored for 30 days."""
+        """Put a project into the bin, from which it can be restored until its room is needed."""
         return self._binned(identity, _now())
 
     def restore(self, identity: str) -> ProjectSummary:
@@ -216,7 +249,60 @@ class ProjectStore:
                 raise InputError("only a deleted project can be erased", code="conflict")
             last = summary_of(session, row)
             remove(session, [identity])
-            return last
+        self._database.shrink()
+        return last
+
+    def empty_bin(self) -> None:
+        """Erase all deleted projects."""
+        with self._database.session(writes=True) as session:
+            remove(session, [*session.scalars(select(ProjectRow.id).where(ProjectRow.deleted.is_not(None)))])
+        self._database.shrink()
+
+    def size(self) -> tuple[int, int]:
+        """What all projects take, with those in the bin, and what only those in the bin take [bytes]."""
+        with self._database.session() as session:
+            rows = session.scalars(select(ProjectRow).where(ProjectRow.deleted.is_not(None)))
+            return self._database.taken(session), sum(summary_of(session, row).size for row in rows)
+
+    def check_room(self, size: int) -> None:
+        """Refuse what is about to be written before it is.
+
+        Args:
+            size: of it [bytes].
+
+        Raises:
+            InputError: code ``no_space``, it has no room beside what is kept, without the bin.
+        """
+        with self._database.session() as session:
+            taken = self._database.taken(session)
+        if taken + size > self.quota:
+            binned = self.size()[1]
+            if taken - binned + size > self.quota:
+                raise self._no_space(taken - binned, size)
+
+    def _no_space(self, taken: int, needs: int) -> InputError:
+        place = self._database.folder
+        return no_space("projects", taken=taken, quota=self.quota, needs=needs, folder=place)
+
+    @contextlib.contextmanager
+    def _writing(self, size: int) -> Iterator[Session]:
+        """A transaction that adds something; undone where all then takes more than it may.
+
+        Args:
+            size: of what is added at least [bytes].
+        """
+        with self._database.session(writes=True) as session:
+            before = self._database.taken(session)
+            yield session
+            session.flush()
+            if self._database.taken(session) <= max(self.quota, before):
+                return
+            oldest = select(ProjectRow.id).where(ProjectRow.deleted.is_not(None)).order_by(ProjectRow.deleted)
+            for identity in session.scalars(oldest).all():
+                remove(session, [identity])
+                if self._database.taken(session) <= self.quota:
+                    return
+            raise self._no_space(before, max(size, self._database.taken(session) - before))
 
     def history(self, identity: str) -> Sequence[Revision]:
         """The revisions of a project, the last one first."""
@@ -251,7 +337,7 @@ class ProjectStore:
         title, notes = checked_title(title), checked_notes(notes)
         texts = [(revision, _text_of(document)) for revision, document in revisions]
         identity, now = uuid4().hex, _now()
-        with self._database.session(writes=True) as session:
+        with self._writing(sum(len(text) for _, text in texts)) as session:
             row = ProjectRow(id=identity, title=title, notes=notes, version=last, created=now, changed=now)
             session.add(row)
             session.flush()
@@ -261,6 +347,7 @@ class ProjectStore:
                     session, identity, revision.version, saved, revision.label,
                     automatic=revision.automatic, text=text,
                 )  # fmt: skip
+            thin(session, identity)
             keep_files(session, identity, files)
             keep_studies(session, identity, studies, now)
             return opened(session, identity)
@@ -388,7 +475,9 @@ def _keep_content(session: Session, content: bytes) -> str:
 
 def keep_studies(session: Session, identity: str, studies: Iterable[StoredStudy], now: int) -> None:
     """Store tables of studies, one with at least as many runs instead of an earlier one of the same study."""
-    changed = False
+    # A clock that was set back does not make a table older than those that it replaces.
+    last = select(func.max(StudyRow.saved)).where(StudyRow.project == identity)
+    now, changed = max(now, 1 + (session.scalar(last) or 0)), False
     for study in studies:
         before = session.get(StudyRow, (identity, study.study))
         if before is not None and before.runs >= study.runs:
@@ -402,42 +491,51 @@ def keep_studies(session: Session, identity: str, studies: Iterable[StoredStudy]
         )  # fmt: skip
         session.flush()
     if changed:
-        _limit_studies(session, identity)
+        _limit(session, identity, StudyRow, _MOST_STUDIES, _MOST_STUDY_BYTES)
         _drop_contents(session)
 
 
-def _limit_studies(session: Session, identity: str) -> None:
-    """Remove the study tables that were saved first beyond what a project keeps."""
+def keep_answers(session: Session, identity: str, answers: Iterable[StoredAnswer], now: int) -> None:
+    """Store the finished diagnoses that a project does not have yet."""
+    last = select(func.max(AnswerRow.saved)).where(AnswerRow.project == identity)
+    now, changed = max(now, 1 + (session.scalar(last) or 0)), False
+    for answer in answers:
+        if session.get(AnswerRow, (identity, answer.name)) is None:
+            digest, changed = _keep_content(session, answer.content), True
+            session.add(AnswerRow(project=identity, name=answer.name, saved=now, digest=digest))
+            session.flush()
+    if changed:
+        _limit(session, identity, AnswerRow, _MOST_ANSWERS, _MOST_ANSWER_BYTES)
+        _drop_contents(session)
+
+
+def _limit(
+    session: Session, identity: str, table: type[StudyRow | AnswerRow], most: int, most_bytes: int
+) -> None:
+    """Remove results that were saved first beyond what a project keeps."""
     rows = session.execute(
-        select(StudyRow, func.length(ContentRow.data))
-        .join(ContentRow, ContentRow.digest == StudyRow.digest)
-        .where(StudyRow.project == identity)
-        .order_by(StudyRow.saved.desc(), StudyRow.study)
+        select(table, func.length(ContentRow.data))
+        .join(ContentRow, ContentRow.digest == table.digest)
+        .where(table.project == identity)
+        .order_by(table.saved.desc(), table.digest)
     ).all()
     total = 0
     for number, (row, size) in enumerate(rows):
         total += size
-        if number and (number >= _MOST_STUDIES or total > _MOST_STUDY_BYTES):
+        if number and (number >= most or total > most_bytes):
             session.delete(row)
     session.flush()
 
 
 def _drop_contents(session: Session) -> None:
     """Erase contents that no project needs any more."""
-    unused = [ContentRow.digest.not_in(select(table.digest)) for table in (FileRow, StudyRow)]
+    unused = [ContentRow.digest.not_in(select(table.digest)) for table in (FileRow, StudyRow, AnswerRow)]
     session.execute(delete(ContentRow).where(*unused).execution_options(synchronize_session=False))
-
-
-def empty_bin(session: Session, now: int) -> None:
-    """Erase what has been in the bin for too long."""
-    old = list(session.scalars(select(ProjectRow.id).where(ProjectRow.deleted < now - _BIN)))
-    if old:
-        remove(session, old)
 
 
 def remove(session: Session, identities: Sequence[str]) -> None:
     """Erase projects, and contents that no project needs any more."""
-    for table in (FileRow, StudyRow, RevisionRow):
+    for table in (FileRow, StudyRow, AnswerRow, RevisionRow):
         session.execute(delete(table).where(table.project.in_(identities)))
     session.execute(delete(ProjectRow).where(ProjectRow.id.in_(identities)))
     _drop_contents(session)
@@ -477,14 +575,14 @@ def revision_of(row: RevisionRow) -> Revision:
 
 def summary_of(session: Session, row: ProjectRow) -> ProjectSummary:
     """A row as a project in a list."""
-    (files, size), (_, tables) = (
+    (files, size), (_, tables), (_, answers) = (
         session.execute(
             select(func.count(), func.coalesce(func.sum(func.length(ContentRow.data)), 0))
             .select_from(table)
             .join(ContentRow, ContentRow.digest == table.digest)
             .where(table.project == row.id)
         ).one()
-        for table in (FileRow, StudyRow)
+        for table in (FileRow, StudyRow, AnswerRow)
     )
     document = session.scalar(
         select(func.length(RevisionRow.document)).where(
@@ -500,5 +598,5 @@ def summary_of(session: Session, row: ProjectRow) -> ProjectSummary:
         changed=row.changed / 1e3,
         deleted=None if row.deleted is None else row.deleted / 1e3,
         files=int(files),
-        size=int(size) + int(tables) + int(document or 0),
+        size=int(size) + int(tables) + int(answers) + int(document or 0),
     )

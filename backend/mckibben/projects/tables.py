@@ -71,6 +71,19 @@ class FileRow(Base):
     mapping: Mapped[str | None] = mapped_column(Text, default=None)
 
 
+class AnswerRow(Base):
+    """A finished diagnosis of a project; `saved` in milliseconds since 1970 (UTC)."""
+
+    __tablename__ = "project_answers"
+
+    project: Mapped[str] = mapped_column(
+        String(32), ForeignKey("projects.id", ondelete="CASCADE"), primary_key=True
+    )
+    name: Mapped[str] = mapped_column(String(64), primary_key=True)
+    saved: Mapped[int] = mapped_column(BigInteger)
+    digest: Mapped[str] = mapped_column(String(64), ForeignKey("contents.digest"), index=True)
+
+
 class StudyRow(Base):
     """The table of a study of a project; `saved` in milliseconds since 1970 (UTC)."""
 

@@ -14,14 +14,15 @@ from fastapi.routing import APIRoute
 from starlette.datastructures import MutableHeaders
 from starlette.middleware.gzip import GZipMiddleware
 from starlette.requests import ClientDisconnect
-from starlette.types import Message, Receive, Scope, Send
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from mckibben.documents.studio import Studio
 from mckibben.measurement.store import MeasurementStore
 from mckibben.report.document import versions
 from mckibben.server import errors, static
-from mckibben.server.errors import unexpected_answer
+from mckibben.server.errors import error_answer, unexpected_answer
 from mckibben.server.lanes import Lanes
+from mckibben.server.metrics import Requests
 from mckibben.server.routes.curves import curves_router, inverse_router
 from mckibben.server.routes.drives import (
     linearisations_router,
@@ -40,10 +41,17 @@ from mckibben.server.routes.models import (
     reports_router,
 )
 from mckibben.server.routes.presets import order_codes_router, presets_router
-from mckibben.server.routes.program import description_router, facts_router, health_router, help_router
+from mckibben.server.routes.program import (
+    description_router,
+    facts_router,
+    health_router,
+    help_router,
+    metrics_router,
+)
 from mckibben.server.routes.projects import projects_router
 from mckibben.server.security import BodyLimitMiddleware, HttpMiddleware, SecurityMiddleware
 from mckibben.server.settings import Settings
+from mckibben.server.uploads import Scratch
 from mckibben.simulation.integrate.many import lane_kernels
 from mckibben.version import __version__
 
@@ -117,7 +125,10 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         presets=settings.presets, user_presets=settings.user_presets, effects=settings.effects
     )
     app.state.projects, app.state.opening_projects = None, threading.Lock()
-    app.state.store = MeasurementStore(settings.data, quota=settings.quota)
+    app.state.studio.library.quota = settings.quotas.presets
+    app.state.store = MeasurementStore(settings.data, quotas=settings.quotas)
+    app.state.requests, app.state.in_flight = Requests(), {True: 0, False: 0}
+    app.state.scratch = Scratch(app.state.store)
     app.state.workers = Lanes(settings) if settings.workers else None
     app.state.effects = EffectsDocument(app.state.studio.catalogue)
     app.state.versions = versions()
@@ -133,6 +144,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         comparisons_router,
         diagnoses_router,
         health_router,
+        metrics_router,
         facts_router,
         effects_router,
         signatures_router,
@@ -157,9 +169,9 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     errors.install(app, list(dict.fromkeys(route.path_format for route in routes if route.include_in_schema)))
     # The middleware added last is the outermost.
     app.add_middleware(GZipMiddleware, minimum_size=_GZIP_FROM, compresslevel=1)
-    app.add_middleware(BodyLimitMiddleware)
+    app.add_middleware(BodyLimitMiddleware, in_flight=app.state.in_flight)
     app.add_middleware(SecurityMiddleware, settings=settings)
-    app.add_middleware(TimingMiddleware)
+    app.add_middleware(TimingMiddleware, requests=app.state.requests)
     return app
 
 
@@ -178,7 +190,14 @@ def _operation_name(route: APIRoute) -> str:
 
 
 class TimingMiddleware(HttpMiddleware):
-    """``Server-Timing: app;dur=<ms>`` on API answers, no caching unless a route sets it, 500 as JSON."""
+    """``Server-Timing: app;dur=<ms>`` on API answers, no caching unless a route sets it, 500 as JSON.
+
+    Counts each answer, by its route.
+    """
+
+    def __init__(self, app: ASGIApp, *, requests: Requests | None = None) -> None:
+        super().__init__(app)
+        self._requests = requests or Requests()
 
     async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Time one request from its arrival to the first byte of its answer, without waiting for its body."""
@@ -196,16 +215,26 @@ class TimingMiddleware(HttpMiddleware):
             nonlocal started
             if message["type"] == "http.response.start":
                 started = True
+                took = perf_counter() - start - waited
+                route = getattr(scope.get("route"), "path_format", "/api/..." if is_api else "page")
+                self._requests.add(scope["method"], route, message["status"], took)
                 if is_api:
                     headers = MutableHeaders(raw=message["headers"])
                     headers.setdefault("cache-control", "no-store")
-                    headers["server-timing"] = f"app;dur={(perf_counter() - start - waited) * 1e3:.3f}"
+                    headers["server-timing"] = f"app;dur={took * 1e3:.3f}"
             await send(message)
 
         try:
             await self.app(scope, timed_receive, timed_send)
         except ClientDisconnect:
             return  # the client disconnected within the body: no answer is needed, and nothing is stored
+        except asyncio.CancelledError:
+            # By uvicorn at the end; uvicorn would send plain text.
+            if started:
+                raise
+            await error_answer(503, "The server is ending.", hint="Start it again.")(
+                scope, receive, timed_send
+            )
         except Exception as error:
             # Inside Starlette's error layer, which would send plain text and log a second time.
             if started:

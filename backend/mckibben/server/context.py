@@ -6,8 +6,12 @@ from typing import TYPE_CHECKING, Annotated
 
 from fastapi import Depends, Request
 
+from mckibben.application.diagnose.kept import DiagnosisStore
+from mckibben.application.project.stored import Space
+from mckibben.application.study.store import StudyStore
 from mckibben.documents.studio import Studio
 from mckibben.measurement.store import MeasurementStore
+from mckibben.server.settings import Settings
 
 if TYPE_CHECKING:
     from mckibben.projects.store import ProjectStore
@@ -31,8 +35,21 @@ def _projects(request: Request) -> ProjectStore:
             from mckibben.projects.database import Database
             from mckibben.projects.store import ProjectStore
 
-            state.projects = ProjectStore(Database(state.settings.projects or state.settings.data))
+            settings: Settings = state.settings
+            database = Database(settings.projects or settings.data)
+            state.projects = ProjectStore(database, quota=state.store.quotas.projects)
     return state.projects
+
+
+async def _studies(request: Request) -> StudyStore:
+    store: MeasurementStore = request.app.state.store
+    return StudyStore(store.data, quota=store.quotas.studies)
+
+
+async def _space(request: Request) -> Space:
+    state = request.app.state
+    diagnoses = DiagnosisStore(state.store.data, quota=state.store.quotas.diagnoses)
+    return Space(state.studio, state.store, await _studies(request), diagnoses, lambda: _projects(request))
 
 
 async def _start_workers(request: Request) -> None:
@@ -44,4 +61,6 @@ async def _start_workers(request: Request) -> None:
 BeforeWork = Depends(_start_workers)
 StudioDep = Annotated[Studio, Depends(_studio)]
 ProjectsDep = Annotated[ProjectStore, Depends(_projects)]
+StudiesDep = Annotated[StudyStore, Depends(_studies)]
+SpaceDep = Annotated[Space, Depends(_space)]
 StoreDep = Annotated[MeasurementStore, Depends(_store)]

@@ -24,9 +24,10 @@ from mckibben.server.lane import BusyError
 
 log = logging.getLogger("mckibben.server")
 
-_STATUS_OF_CODE = {"not_found": 404, "conflict": 409}
+_STATUS_OF_CODE = {"not_found": 404, "conflict": 409, "unavailable": 503, "no_space": 507}
 _CODE_OF_STATUS = {
     400: "bad_json",
+    401: "token_required",
     403: "forbidden",
     404: "not_found",
     405: "method_not_allowed",
@@ -35,6 +36,8 @@ _CODE_OF_STATUS = {
     415: "unsupported_media_type",
     422: "bad_input",
     429: "busy",
+    503: "unavailable",
+    507: "no_space",
 }
 _HINTS = {
     400: 'Send one JSON object, e.g. {"muscle": {"preset": "DMSP-20"}}.',

@@ -26,8 +26,8 @@ class Job:
 
     Attributes:
         prepare: reads and checks; raises `InputError` for what cannot be used.
-        time_limit: after which it ends by itself, with what it has found where it can, or is ended where it
-            does not look at the time [s].
+        time_limit: processor time after which it ends by itself, with what it has found where it can, or is
+            ended where it does not look at the time [s].
         lane: of the processes that do it.
         looks: whether it looks at the time.
         hint: how it would take less time or memory, by what its question has.
@@ -41,5 +41,5 @@ class Job:
 
     @property
     def ended_after(self) -> float:
-        """Time after which its process is ended [s]."""
+        """Processor time after which its process is ended [s]."""
         return self.time_limit + _OVERTIME if self.looks else self.time_limit

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from mckibben.application.diagnose import diagnose
+from mckibben.application.diagnose.kept import DiagnosisStore
 from mckibben.application.json_text import to_json
 from mckibben.application.linear import linearise
 from mckibben.application.linear.linearise import LinearQuestion, checked, stated_condition
@@ -32,6 +33,7 @@ from mckibben.server.short_jobs import SHORT_JOBS
 from mckibben.simulation.linear.bound import SLIDING_SPEED
 from mckibben.simulation.linear.point import Condition
 from mckibben.simulation.linear.trials import Goals
+from mckibben.simulation.outcome import Watch
 
 
 def linear_question(body: LinearisationRequest, studio: Studio) -> LinearQuestion:
@@ -76,8 +78,22 @@ _STUDY_LIMIT = 900.0  # s
 
 
 def _diagnosis(body: DiagnosisRequest, studio: Studio, store: MeasurementStore) -> Prepared:
-    work = diagnose.prepare(model_question(body, studio, store), studio)
-    return lambda watch: answer_of(work(watch))
+    question = model_question(body, studio, store)
+    work, kept = diagnose.prepare(question, studio), DiagnosisStore(store.data, quota=store.quotas.diagnoses)
+    ids = [item.id for item in body.chosen()]
+    name = kept.name(body.model_dump_json(), map(store.name_of, ids), studio)
+
+    def diagnosed(watch: Watch) -> bytes:
+        before = kept.answer(name)
+        if before is not None:
+            return before
+        result = work(watch)
+        answer = answer_of(result)
+        if result.verdict.status != "unfinished":
+            kept.keep(name, ids, answer)
+        return answer
+
+    return diagnosed
 
 
 def _sizing(body: SizingTask, studio: Studio, _store: MeasurementStore) -> Prepared:
@@ -118,7 +134,7 @@ def _linear_view(body: LinearisationRequest, studio: Studio, _store: Measurement
 
 def _study(body: StudyDocument, studio: Studio, store: MeasurementStore) -> Prepared:
     question = study.study_question(body, studio, MOST_RUNS)
-    work = study.prepare(question, journal=StudyStore(store.data).of(question))
+    work = study.prepare(question, journal=StudyStore(store.data, quota=store.quotas.studies).of(question))
     return lambda watch: to_json(work(watch))
 
 

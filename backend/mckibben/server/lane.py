@@ -2,13 +2,7 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
 from dataclasses import dataclass
-from multiprocessing.connection import Listener
-
-from pebble import ProcessPool
-
-_ENDED_WITHIN = 2.0  # s that processes may take to end
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,13 +41,3 @@ class Place:
 
     before: int
     seconds: float
-
-
-def end_pool(pool: ProcessPool, listener: Listener | None) -> None:
-    """End the processes of a pool, whatever they do, and where they are heard."""
-    if listener is not None:
-        with suppress(OSError):
-            listener.close()
-    pool.stop()
-    with suppress(RuntimeError, TimeoutError, OSError):
-        pool.join(_ENDED_WITHIN)

@@ -1,16 +1,22 @@
 """Access control of the server, as pure ASGI middleware.
 
 Four things are checked before a request reaches a route: the Host header (against DNS rebinding), the origin
-of requests that change or compute something (against other pages in the same browser), the token when the
-server is reachable from outside, and the size of the body. Every answer carries the security headers.
+of requests that change or compute something (against other pages in the same browser), the token (against
+other users of this machine, and of others), and the size of the body. Every answer carries the security
+headers.
 """
 
 from __future__ import annotations
 
 import ipaddress
+import os
+import re
 import secrets
 import socket
+import time
+from contextlib import suppress
 from http.cookies import CookieError, SimpleCookie
+from pathlib import Path
 from urllib.parse import parse_qsl, quote, urlencode, urlsplit
 
 from starlette.datastructures import Headers
@@ -18,7 +24,9 @@ from starlette.exceptions import HTTPException
 from starlette.responses import RedirectResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from mckibben.physics.errors import InputError
 from mckibben.server.errors import error_answer
+from mckibben.server.peer import is_own_account
 from mckibben.server.settings import LOOPBACK_NAMES, Settings, is_every_interface
 
 JSON_LIMIT = 1_000_000
@@ -26,6 +34,11 @@ UPLOAD_LIMIT = 64_000_000
 UPLOADS = frozenset(
     {("PUT", "/api/measurements"), ("POST", "/api/measurements/preview"), ("POST", "/api/projects/import")}
 )
+
+#: Bytes of all bodies that arrive or are worked on at a time: of files, and of others, which are in memory.
+IN_FLIGHT = {True: 512_000_000, False: 64_000_000}
+_FLIGHT_PASSES = 5  # s after which to try again
+_FULL_FLIGHT = "The server is busy: too much is being sent to it at the moment."
 
 CONTENT_SECURITY_POLICY = (
     "default-src 'self'; img-src 'self' data: blob:; style-src 'self' 'unsafe-inline'; object-src 'none'; "
@@ -41,12 +54,48 @@ SECURITY_HEADERS = {
     "permissions-policy": "camera=(), microphone=(), geolocation=()",
 }
 _RAW_HEADERS = [(name.encode(), value.encode()) for name, value in SECURITY_HEADERS.items()]
+_IN_LINKS = ("token", "once")
+_OF_BROWSERS = ("sec-fetch-site", "sec-fetch-mode", "origin", "referer")
+_ONCE_WITHIN = 300.0  # s
+_TOKEN = re.compile(r"[A-Za-z0-9_-]{43}")
 _READING = frozenset({"GET", "HEAD"})
 
 
 def new_token() -> str:
     """A new secret of 32 random bytes for the link."""
     return secrets.token_urlsafe(32)
+
+
+def kept_token(data: Path) -> str:
+    """The secret of a user's data folder, in the file ``token``, which only he can read; made the first time.
+
+    It stays over starts, so that an open page goes on with a server that was started again. Where others
+    could read it, it is a new one.
+
+    Raises:
+        InputError: code ``conflict``, the file can be neither read nor written.
+    """
+    path = data / "token"
+    try:
+        with suppress(FileNotFoundError):
+            info, text = path.stat(), path.read_text("ascii").strip()
+            private = os.name != "posix" or (info.st_uid == os.geteuid() and not info.st_mode & 0o077)
+            if private and _TOKEN.fullmatch(text):
+                return text
+            path.unlink()
+        data.mkdir(parents=True, exist_ok=True)
+        token = new_token()
+        with os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as file:
+            file.write(f"{token}\n")
+    except FileExistsError:  # another server has just made it
+        return kept_token(data)
+    except (OSError, UnicodeError) as error:
+        why = getattr(error, "strerror", None) or str(error)
+        raise InputError(
+            f"the token cannot be kept in {path}: {why}", hint="name a folder of your own with --data",
+            code="conflict",
+        ) from error  # fmt: skip
+    return token
 
 
 def _host_name(host: str) -> str | None:
@@ -82,6 +131,8 @@ class SecurityMiddleware:
     def __init__(self, app: ASGIApp, *, settings: Settings) -> None:
         self.app = app
         self._token = settings.token
+        self._once, self._made = settings.once, time.monotonic()
+        self._own_programs = settings.own_programs
         # Cookies are shared between ports: two servers on one machine need two names.
         self._cookie = f"mckibben-{settings.port}"
         self._hosts = {*LOOPBACK_NAMES, settings.host.strip("[]").lower()}
@@ -140,28 +191,49 @@ class SecurityMiddleware:
         )
 
     def _refuse_stranger(self, scope: Scope, headers: Headers, token: str) -> Response | None:
-        """Refuse requests without the token, which is in the link (then set as cookie), cookie or header."""
+        """Refuse requests without the token, which is in the link (then set as cookie), cookie or header.
+
+        The link with which the program opens the browser holds a code instead that works once: other users
+        of the machine see the arguments of programs.
+        """
         query = parse_qsl(scope["query_string"].decode("latin-1"), keep_blank_values=True)
-        shown = [value for name, value in query if name == "token"]
-        if shown and scope["method"] == "GET" and _same(shown[0], token):
-            rest = urlencode([pair for pair in query if pair[0] != "token"])
+        known = _same(_cookie_value(headers.get("cookie", ""), self._cookie), token)
+        shown = [(name, value) for name, value in query if name in _IN_LINKS]
+        if shown and scope["method"] == "GET" and (self._opens(*shown[0], token) or known):
+            rest = urlencode([pair for pair in query if pair[0] not in _IN_LINKS])
             # One leading slash only: '//name' would be the address of another server.
             clean = "/" + quote(scope["path"].lstrip("/\\"), safe="/") + (f"?{rest}" if rest else "")
             answer = RedirectResponse(clean, status_code=303)
-            answer.set_cookie(self._cookie, token, httponly=True, samesite="strict", path="/")
+            # Lax: a link on another page may lead here. What such a page sends is refused by its origin.
+            secure = scope["scheme"] == "https"
+            answer.set_cookie(self._cookie, token, httponly=True, samesite="lax", path="/", secure=secure)
             answer.headers["cache-control"] = "no-store"
             return answer
         scheme, _, secret = headers.get("authorization", "").partition(" ")
-        if scheme.lower() in ("bearer", "token") and _same(secret.strip(), token):
+        if known or (scheme.lower() in ("bearer", "token") and _same(secret.strip(), token)):
             return None
-        if _same(_cookie_value(headers.get("cookie", ""), self._cookie), token):
-            return None
-        return error_answer(
-            403,
-            "This server needs the token it printed when it started.",
+        if self._own_programs and not any(name in headers for name in _OF_BROWSERS):
+            # It could read the file with the token. A browser is asked: it does what other pages want.
+            if is_own_account(scope.get("client"), scope.get("server")):
+                return None
+        answer = error_answer(
+            401,
+            "This server needs its token.",
             code="token_required",
-            hint="Open the printed link (…/?token=…), or send 'Authorization: Bearer <token>'.",
+            hint="Open the link that 'mckibben serve' printed (…/?token=…), or send 'Authorization: Bearer "
+            "<token>' with the token of the file that it names.",
         )
+        answer.headers["www-authenticate"] = "Bearer"
+        return answer
+
+    def _opens(self, name: str, value: str, token: str) -> bool:
+        """Whether what a link holds opens the server: the token, or the code that works once."""
+        if name == "token":
+            return _same(value, token)
+        if self._once is None or time.monotonic() - self._made > _ONCE_WITHIN or not _same(value, self._once):
+            return False
+        self._once = None
+        return True
 
 
 def _is_address(name: str) -> bool:
@@ -186,11 +258,19 @@ def _cookie_value(header: str, name: str) -> str:
 
 
 class BodyLimitMiddleware(HttpMiddleware):
-    """Refuse a body that is too large: by its declared length, or while it streams in."""
+    """Refuse a body that is too large, alone or beside others: by its declared length, or as it streams in.
+
+    Files arrive on the disk, other bodies in memory; each has its budget of bytes that are in flight.
+    """
+
+    def __init__(self, app: ASGIApp, *, in_flight: dict[bool, int]) -> None:
+        super().__init__(app)
+        self._in_flight = in_flight  # whether they are files -> bytes
 
     async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Pass one request on with its body counted."""
-        limit = UPLOAD_LIMIT if (scope["method"], scope["path"]) in UPLOADS else JSON_LIMIT
+        is_file = (scope["method"], scope["path"]) in UPLOADS
+        limit = UPLOAD_LIMIT if is_file else JSON_LIMIT
         message = f"The body is larger than {limit // 1_000_000} MB."
         declared = Headers(scope=scope).get("content-length", "0")
         if not (declared.isascii() and declared.isdigit()):
@@ -201,7 +281,16 @@ class BodyLimitMiddleware(HttpMiddleware):
         if len(declared.lstrip("0")) > 12 or int(declared) > limit:
             await error_answer(413, message)(scope, receive, send)
             return
-        received = 0
+        received = held = 0
+
+        def hold(size: int) -> None:
+            """Count the body as in flight, at first as large as it declares to be."""
+            nonlocal held
+            if size > held:
+                if self._in_flight[is_file] + size - held > IN_FLIGHT[is_file]:
+                    raise HTTPException(429, _FULL_FLIGHT, {"retry-after": str(_FLIGHT_PASSES)})
+                self._in_flight[is_file] += size - held
+                held = size
 
         async def counted() -> Message:
             nonlocal received
@@ -209,6 +298,17 @@ class BodyLimitMiddleware(HttpMiddleware):
             received += len(part.get("body", b""))
             if received > limit:
                 raise HTTPException(413, message)
+            hold(received)
             return part
 
-        await self.app(scope, counted, send)
+        try:
+            hold(int(declared))
+            await self.app(scope, counted, send)
+        except HTTPException as refused:  # by its declared length; later ones are answered inside
+            answer = error_answer(
+                refused.status_code, str(refused.detail), hint=f"Try again in {_FLIGHT_PASSES} s."
+            )
+            answer.headers.update(refused.headers or {})
+            await answer(scope, receive, send)
+        finally:
+            self._in_flight[is_file] -= held

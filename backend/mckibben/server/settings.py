@@ -6,6 +6,7 @@ import ipaddress
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from mckibben.folder import QUOTAS, Quotas
 from mckibben.measurement.reading.limits import MOST_MEMORY
 from mckibben.resources import frontend_folder, presets_folder, user_folder
 
@@ -35,7 +36,11 @@ class Settings:
 
     Attributes:
         host, port: the address it listens on.
-        token: secret that every request must contain; required when ``host`` is not loopback.
+        token: secret that every request must contain; required when ``host`` is not loopback. None where
+            another one decides who may connect, as the file of a Unix socket does.
+        once: secret of a link that works once, in the minutes after the start.
+        own_programs: whether programs of the account that it runs under need no token (Linux, loopback); a
+            browser needs it always.
         presets: folder of the built-in presets.
         user_presets: folder of the user's presets, where new ones are saved; None = saving is refused.
         effects: folders with further effect files.
@@ -47,14 +52,17 @@ class Settings:
         queue: jobs that may wait for a worker; more are refused.
         worker_memory: bytes that one of them may take.
         reader_memory: bytes that one that reads files may take.
-        quota: bytes that kept measurements may take on the disk.
+        quotas: bytes that each kind of what is kept may take on the disk.
         log_level: of what the server writes to the terminal.
+        log_json: whether each line of it is a JSON object.
         access_log: whether it writes a line for each request; None = only when it is reachable from outside.
     """
 
     host: str = "127.0.0.1"
     port: int = 8000
     token: str | None = None
+    once: str | None = None
+    own_programs: bool = False
     presets: Path = field(default_factory=presets_folder)
     user_presets: Path | None = None
     effects: tuple[Path, ...] = ()
@@ -65,8 +73,9 @@ class Settings:
     queue: int = 16
     worker_memory: int = 3_000_000_000
     reader_memory: int = MOST_MEMORY
-    quota: int = 4_000_000_000
+    quotas: Quotas = QUOTAS
     log_level: str = "warning"
+    log_json: bool = False
     access_log: bool | None = None
 
     def __post_init__(self) -> None:

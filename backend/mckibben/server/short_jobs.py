@@ -119,13 +119,13 @@ class FileRequest:
     """A file and what the user says of it.
 
     Attributes:
-        content: its bytes.
+        path: where its bytes are, as long as the request lasts.
         name: for people.
         correction: of how it is read.
         muscle: id of the preset that is chosen, None without one; for the questions of a preview.
     """
 
-    content: bytes
+    path: Path
     name: str
     correction: Correction
     muscle: str | None = None
@@ -151,21 +151,21 @@ class PackedProject:
     """A project of another machine.
 
     Attributes:
-        content: its file.
+        path: where its file is, as long as the request lasts.
         database: of the projects: an address, or the folder of an SQLite file.
     """
 
-    content: bytes
+    path: Path
     database: str | Path
 
 
 def _upload(body: FileRequest, _studio: Studio, store: MeasurementStore) -> Prepared:
-    return lambda _: answer_of(summary_of(store.put(body.content, body.name, body.correction)))
+    return lambda _: answer_of(summary_of(store.put(body.path.read_bytes(), body.name, body.correction)))
 
 
 def _preview(body: FileRequest, studio: Studio, _store: MeasurementStore) -> Prepared:
     def read(_: Watch) -> bytes:
-        found = preview(body.content, clean_name(body.name), body.correction)
+        found = preview(body.path.read_bytes(), clean_name(body.name), body.correction)
         return answer_of(preview_of(found, preview_form(found, studio, body.muscle)))
 
     return read
@@ -208,12 +208,17 @@ def _fitted_model(body: FittedMuscleRequest, studio: Studio, store: MeasurementS
 
 
 def _project_import(body: PackedProject, _studio: Studio, store: MeasurementStore) -> Prepared:
-    projects = _projects(body.database)
-    return lambda _: to_json({"id": unpacked(body.content, projects, store).summary.id})
+    projects = _projects(body.database, store)
+
+    def unpack(_: Watch) -> bytes:
+        with body.path.open("rb") as source:
+            return to_json({"id": unpacked(source, projects, store).summary.id})
+
+    return unpack
 
 
 def _project_files(body: FilesOfProject, _studio: Studio, store: MeasurementStore) -> Prepared:
-    projects = _projects(body.database)
+    projects = _projects(body.database, store)
 
     def bring_back(_: Watch) -> bytes:
         restore_files(projects, projects.open(body.project, body.version), store)
@@ -222,12 +227,12 @@ def _project_files(body: FilesOfProject, _studio: Studio, store: MeasurementStor
     return bring_back
 
 
-def _projects(database: str | Path) -> ProjectStore:
+def _projects(database: str | Path, store: MeasurementStore) -> ProjectStore:
     # Imported here: the database of the projects is nothing that the other files need.
     from mckibben.projects.database import Database
     from mckibben.projects.store import ProjectStore
 
-    return ProjectStore(Database(database))
+    return ProjectStore(Database(database), quota=store.quotas.projects)
 
 
 def _curves(body: CurvesRequest, studio: Studio, _store: MeasurementStore) -> Prepared:

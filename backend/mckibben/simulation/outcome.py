@@ -56,8 +56,9 @@ class Watch:
         cancelled: returns whether the caller has cancelled the run.
         progress: called with the share of the run that is done, a few times a second.
         found: called with intermediate results as JSON.
-        time_limit: from the first call of `ended` on [s]. What must have one answer, such as a run or the
-            design of a controller, has none: it is bounded in steps.
+        time_limit: processor time of this process from the first call of `ended` on [s]: the same work on a
+            busy machine. What must have one answer, such as a run or the design of a controller, has none: it
+            is bounded in steps.
     """
 
     cancelled: Callable[[], bool] | None = None
@@ -69,12 +70,12 @@ class Watch:
 
     def ended(self, share: float) -> Outcome | None:
         """Why the run must end now; None to go on. ``share`` of it is done."""
-        now = time.monotonic()
+        now, work = time.monotonic(), time.process_time()
         if self._began is None:
-            self._began = self._told = now
+            self._began, self._told = work, now
         if self.cancelled is not None and self.cancelled():
             return Outcome.CANCELLED
-        if now - self._began > self.time_limit:
+        if work - self._began > self.time_limit:
             return Outcome.TIMED_OUT
         if self.progress is not None and now - self._told > _PROGRESS_EVERY:
             self._told = now

@@ -27,6 +27,9 @@ const WORDS = {
   gone:
     "The server does not answer. Is “mckibben serve” still running? The page tries again by itself; what you " +
     "entered stays. Dimmed plots show the state before.",
+  locked:
+    "The server was started with another token. Open the link that “mckibben serve” has printed: this page then " +
+    "goes on by itself, and what you entered stays.",
   slow: "The server takes long to answer. Dimmed plots show the state before.",
   compiling:
     "The server compiles the simulation for this machine. That takes about half a minute, once after an " +
@@ -197,7 +200,7 @@ export function shell(views, { examples, help }) {
         h("span", null, text),
         now === "slow"
           ? null
-          : h("button", { type: "button", onclick: now === "gone" ? look : loadAll }, "Try again"),
+          : h("button", { type: "button", onclick: now === "up" ? loadAll : look }, "Try again"),
       )
       : null;
   };

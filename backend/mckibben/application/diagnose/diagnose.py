@@ -171,7 +171,8 @@ def prepare(question: ModelQuestion, studio: Studio) -> Callable[[Watch], Diagno
             if stop.outcome is Outcome.CANCELLED:
                 raise InputError("the diagnosis was cancelled", code="stopped") from stop
             raise InputError(
-                f"the limit of {watch.time_limit:g} s ended the diagnosis before the start model was fitted",
+                f"the limit of {watch.time_limit:g} s of processor time ended the diagnosis before the start "
+                "model was fitted",
                 hint=HINT,
                 code="stopped",
             ) from stop

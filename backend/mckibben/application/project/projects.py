@@ -10,12 +10,11 @@ where they are others, it stays in the project and is not shown as a result.
 
 from __future__ import annotations
 
-import io
 import json
 import re
 import zipfile
-from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 from pydantic import ValidationError
 
@@ -57,10 +56,29 @@ def _identities(part: Any) -> Iterator[str]:
             yield from _identities(value)
 
 
-def files_of(document: Document, measurements: MeasurementStore) -> list[StoredFile]:
-    """The stored files of the measurements that a document names."""
-    found = [(identity, measurements.original(identity)) for identity in measurements_in(document)]
-    return [StoredFile(identity, *original) for identity, original in found if original is not None]
+def texts_in(document: Any) -> set[str]:
+    """All texts of a document that may be ids of measurements or presets."""
+    found: set[str] = set()
+    waiting = [document]
+    while waiting:
+        part = waiting.pop()
+        if isinstance(part, str):
+            if len(part) <= 64:
+                found.add(part)
+        elif isinstance(part, Mapping):
+            waiting += [*part.keys(), *part.values()]
+        elif isinstance(part, list | tuple):
+            waiting += part
+    return found
+
+
+def files_of(
+    document: Document, measurements: MeasurementStore, known: Collection[str] = ()
+) -> Iterator[StoredFile]:
+    """The stored files of the measurements that a document names, one after the other, without known ones."""
+    for identity in measurements_in(document):
+        if identity not in known and (original := measurements.original(identity)) is not None:
+            yield StoredFile(identity, *original)
 
 
 def restore_files(projects: ProjectStore, project: Project, measurements: MeasurementStore) -> Project:
@@ -75,7 +93,7 @@ def restore_files(projects: ProjectStore, project: Project, measurements: Measur
 
 def missing_files(project: Project, measurements: MeasurementStore) -> list[str]:
     """Ids of the measurements of a project of which no file is stored."""
-    return [each for each in project.measurements if measurements.original(each) is None]
+    return [each for each in project.measurements if not measurements.has(each)]
 
 
 def _store(file: StoredFile, measurements: MeasurementStore) -> str:
@@ -89,6 +107,11 @@ class _Counted:
     def __init__(self, parts: Mapping[str, bytes]) -> None:
         self._parts, self._left = parts, _MOST_BYTES
         self._entries = 0
+
+    @property
+    def size(self) -> int:
+        """What is written of them so far [bytes]."""
+        return _MOST_BYTES - self._left
 
     def content(self, name: str) -> bytes:
         """A part that is written as it is."""
@@ -114,10 +137,14 @@ def _too_large() -> InputError:
     )
 
 
-def packed(projects: ProjectStore, identity: str) -> tuple[str, bytes]:
-    """A project as one file: its name, and a ZIP archive of documents, history, measurements, studies."""
-    project, files = projects.open(identity), projects.files(identity)
+def packed(projects: ProjectStore, identity: str, into: BinaryIO) -> str:
+    """Write a project as one file, a ZIP archive of documents, history, measurements, studies; its name.
+
+    Its measurements are in memory one after the other.
+    """
+    project = projects.open(identity)
     history, studies = projects.history(identity), projects.studies(identity)
+    names: list[dict[str, Any]] = []
     about = {
         "schema": SCHEMA,
         "title": project.summary.title,
@@ -132,31 +159,26 @@ def packed(projects: ProjectStore, identity: str) -> tuple[str, bytes]:
             }
             for each in history
         ],
-        "files": [
-            {
-                "measurement": file.measurement,
-                "name": file.name,
-                "mapping": file.mapping,
-                "file": f"measurements/{number}-{_plain(file.name)}",
-            }
-            for number, file in enumerate(files, 1)
-        ],
+        "files": names,
         "studies": [
             {"environment": study.environment, "runs": study.runs, "file": f"studies/{number}.jsonl"}
             for number, study in enumerate(studies, 1)
         ],
     }
-    buffer = io.BytesIO()
-    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr("project.json", json.dumps(about, ensure_ascii=False, indent=1))
+    with zipfile.ZipFile(into, "w", zipfile.ZIP_DEFLATED) as archive:
         for each in history:
             document = projects.open(identity, each.version).document
             archive.writestr(f"history/{each.version}.json", json.dumps(document, ensure_ascii=False))
-        for entry, file in zip(about["files"], files, strict=True):
-            archive.writestr(str(entry["file"]), file.content)
+        for number, file in enumerate(projects.files(identity), 1):
+            name = f"measurements/{number}-{_plain(file.name)}"
+            archive.writestr(name, file.content)
+            names.append(
+                {"measurement": file.measurement, "name": file.name, "mapping": file.mapping, "file": name}
+            )
         for entry, study in zip(about["studies"], studies, strict=True):
             archive.writestr(str(entry["file"]), study.content)
-    return f"{_plain(project.summary.title)}.mckibben.zip", buffer.getvalue()
+        archive.writestr("project.json", json.dumps(about, ensure_ascii=False, indent=1))
+    return f"{_plain(project.summary.title)}.mckibben.zip"
 
 
 def _plain(name: str) -> str:
@@ -164,14 +186,15 @@ def _plain(name: str) -> str:
     return re.sub(r"[^A-Za-z0-9._-]+", "-", clean_name(name)).strip(".-")[:80] or "project"
 
 
-def unpacked(content: bytes, projects: ProjectStore, measurements: MeasurementStore) -> Project:
+def unpacked(source: BinaryIO, projects: ProjectStore, measurements: MeasurementStore) -> Project:
     """A packed project as a new one; its measurements are stored.
 
     Raises:
-        InputError: it is not a packed project, or a part is missing, damaged or too large.
+        InputError: it is not a packed project, or a part is missing, damaged or too large; code ``no_space``,
+            what it would write has no room, and nothing was written.
     """
     try:
-        with zipfile.ZipFile(io.BytesIO(content)) as archive:
+        with zipfile.ZipFile(source) as archive:
             about, parts = _parts(archive)
     except (zipfile.BadZipFile, NotImplementedError, RuntimeError, EOFError, OSError) as error:
         raise InputError(
@@ -205,6 +228,7 @@ def unpacked(content: bytes, projects: ProjectStore, measurements: MeasurementSt
         raise InputError(
             f"the packed project is damaged: {error}", hint="export it once more from where it came from"
         ) from error
+    projects.check_room(counted.size)
     with measurements.all_or_none():
         for file in files:
             if _store(file, measurements) != file.measurement:

@@ -293,7 +293,11 @@ def _message(sizing: Sizing, specimens: int, limit: float) -> str | None:
 def _so_far(sizing: Sizing, specimens: int, limit: float) -> str:
     """How far a search came that was ended, and what the drives of it are not."""
     timed = sizing.outcome is Outcome.TIMED_OUT
-    ended = f"The limit of {limit:g} s ended the search" if timed else "The search was cancelled"
+    ended = (
+        f"The limit of {limit:g} s of processor time ended the search"
+        if timed
+        else "The search was cancelled"
+    )
     more = f" To try all, {HINT}." if timed else ""
     tried = sizing.choices - sizing.untried
     if not tried:

@@ -25,6 +25,7 @@ from mckibben.application.study.study import (
 from mckibben.application.study.subject import StudySubject, subject_of
 from mckibben.documents.studio import Studio
 from mckibben.documents.study import StudyDocument
+from mckibben.folder import QUOTAS
 from mckibben.physics.errors import InputError
 from mckibben.projects.project import StoredStudy
 from mckibben.resources import presets_folder
@@ -33,7 +34,6 @@ from mckibben.studies.journal import Journal, journal_bytes, rows_of
 from mckibben.studies.table import Row
 
 _BROUGHT = "-brought.jsonl"  # sorted before all journals written here: rows made here replace it
-QUOTA = 500_000_000  # bytes of all studies; those not used for longest go first
 
 
 class StudyStore:
@@ -44,8 +44,8 @@ class StudyStore:
         quota: most bytes that they may take.
     """
 
-    def __init__(self, data: Path, *, quota: int = QUOTA) -> None:
-        self._folder, self._quota = data / "studies", quota
+    def __init__(self, data: Path, *, quota: int = QUOTAS.studies) -> None:
+        self._folder, self.quota = data / "studies", quota
 
     def of(self, question: StudyQuestion) -> Callable[[], Kept]:
         """Opens the rows of a study, for `mckibben.application.study.study.prepare`."""
@@ -93,14 +93,28 @@ class StudyStore:
     def _of(self, document: StudyDocument, subject: StudySubject, studio: Studio) -> Path:
         return self._folder / study_name(fingerprint_of(document, subject), environment_of(studio))
 
+    def size(self) -> int:
+        """What the rows of all studies take on the disk [bytes]."""
+        with suppress(OSError):
+            return sum(self._sizes().values())
+        return 0
+
+    def erase(self) -> None:
+        """Remove the rows of all studies; they are made again when they are asked for."""
+        shutil.rmtree(self._folder, ignore_errors=True)
+
+    def _sizes(self) -> dict[Path, int]:
+        found = list(self._folder.iterdir()) if self._folder.exists() else []
+        return {path: sum(file.stat().st_size for file in path.iterdir()) for path in found}
+
     def _tidy(self) -> None:
         """Remove the studies that were not used for longest while all take more than they may."""
         with suppress(OSError):
-            found = sorted(self._folder.iterdir(), key=lambda path: path.stat().st_mtime)
-            sizes = {path: sum(file.stat().st_size for file in path.iterdir()) for path in found}
+            sizes = self._sizes()
+            found = sorted(sizes, key=lambda path: path.stat().st_mtime)
             total = sum(sizes.values())
             for path in found[:-1]:
-                if total <= self._quota:
+                if total <= self.quota:
                     return
                 shutil.rmtree(path, ignore_errors=True)
                 total -= sizes[path]

@@ -379,7 +379,7 @@ def _unfinished(done: Unfinished, names: str, before: float, after: float, unit:
         else f"So far no effect lowers the error of {brief(before)} {unit}."
     )
     return (
-        f"{found} The limit of {done.limit:g} s ended the diagnosis after {done.tried} of "
+        f"{found} The limit of {done.limit:g} s of processor time ended the diagnosis after {done.tried} of "
         f"{done.candidates} effects had been tried alone and {done.models} models fitted: the other effects "
         "and combinations were not tried, nor was what else would explain the data as well."
     )

@@ -12,13 +12,12 @@ from mckibben.application.run.simulate import SimulationResult
 from mckibben.application.size.size import SizingResult
 from mckibben.application.study.file import parquet_bytes
 from mckibben.application.study.options import StudyOptions, study_options
-from mckibben.application.study.store import StudyStore
 from mckibben.application.study.study import StudyResult, study_question
 from mckibben.documents.study import StudyDocument
 from mckibben.documents.task import SizingTask
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
-from mckibben.server.context import StoreDep, StudioDep
+from mckibben.server.context import StoreDep, StudiesDep, StudioDep
 from mckibben.server.jobs import MOST_RUNS
 from mckibben.server.long_work import answered, contained, whole
 from mckibben.server.schemas.common import errors
@@ -128,10 +127,10 @@ def list_study_options(body: StudyOptionsRequest, studio: StudioDep) -> JsonAnsw
     responses=errors(400, 413, 415, 422),
     openapi_extra=request_examples.worked("study"),
 )
-def count_kept_runs(body: StudyDocument, studio: StudioDep, store: StoreDep) -> JsonAnswer:
+def count_kept_runs(body: StudyDocument, studio: StudioDep, studies: StudiesDep) -> JsonAnswer:
     """How many runs a study plans, and how many are kept from before, which it does not make again."""
     question = study_question(body, studio, MOST_RUNS)
-    return JsonAnswer({"runs": StudyStore(store.data).runs(question), "planned": question.plan.runs})
+    return JsonAnswer({"runs": studies.runs(question), "planned": question.plan.runs})
 
 
 @studies_router.post(
@@ -146,11 +145,11 @@ def count_kept_runs(body: StudyDocument, studio: StudioDep, store: StoreDep) -> 
     },
     openapi_extra=request_examples.worked("study"),
 )
-def write_parquet(body: StudyDocument, studio: StudioDep, store: StoreDep) -> Response:
+def write_parquet(body: StudyDocument, studio: StudioDep, studies: StudiesDep) -> Response:
     """The table of a study as Parquet, of the runs that are kept; none is made.
 
     Needs pyarrow where the server runs; ``/api/studies/options`` says whether it is there.
     """
     question = study_question(body, studio, MOST_RUNS)
-    content = parquet_bytes(StudyStore(store.data).result(question))
+    content = parquet_bytes(studies.result(question))
     return Response(content, media_type=_PARQUET)

@@ -93,7 +93,7 @@ _Prepare = Query(
     "",
     dependencies=[BeforeWork],
     response_model=MeasurementSummary,
-    responses=errors(400, 409, 413, 415, 422, 429),
+    responses=errors(400, 409, 413, 415, 422, 429, 507),
     openapi_extra=_BODY,
 )
 async def upload_measurement(
@@ -103,9 +103,10 @@ async def upload_measurement(
 
     With a mapping the measurement gets its own id, so that two readings of a file can be compared.
     """
-    content, correction = await _file(request, mapping)
-    file = FileRequest(content, name, correction)
-    return JsonAnswer(await whole(request, "file upload", file, studio, store))
+    correction = _correction(request, mapping)
+    async with request.app.state.scratch.received(request) as path:
+        file = FileRequest(path, name, correction)
+        return JsonAnswer(await whole(request, "file upload", file, studio, store))
 
 
 @measurements_router.post(
@@ -124,19 +125,19 @@ async def preview_measurement(
     muscle: _Muscle = None,
 ) -> JsonAnswer:
     """How a file would be read: columns, units, rows, kind, experiment. Nothing is stored."""
-    content, correction = await _file(request, mapping)
-    file = FileRequest(content, name, correction, muscle)
-    return JsonAnswer(await whole(request, "preview", file, studio, store))
+    correction = _correction(request, mapping)
+    async with request.app.state.scratch.received(request) as path:
+        file = FileRequest(path, name, correction, muscle)
+        return JsonAnswer(await whole(request, "preview", file, studio, store))
 
 
-async def _file(request: Request, mapping: str | None) -> tuple[bytes, Correction]:
-    """The file of a request, and the user's corrections."""
+def _correction(request: Request, mapping: str | None) -> Correction:
+    """The user's corrections of the file of a request."""
     # The body is the file whatever its content type (curl sends urlencoded); only a form wraps it.
     declared = request.headers.get("content-type", "")
     if declared.partition(";")[0].strip().lower() == "multipart/form-data":
         raise HTTPException(415, "Send the file itself as the body, not a form with the file in it.")
-    correction = Correction() if mapping is None else read_correction(mapping)
-    return await request.body(), correction
+    return Correction() if mapping is None else read_correction(mapping)
 
 
 @measurements_router.get(

@@ -59,7 +59,7 @@ def read_preset(
     "/muscles",
     status_code=201,
     response_model=MuscleAnswer,
-    responses=errors(400, 409, 413, 415, 422),
+    responses=errors(400, 409, 413, 415, 422, 507),
     openapi_extra=request_examples.worked("muscle"),
 )
 def save_muscle(body: MusclePreset, studio: StudioDep) -> JsonAnswer:
@@ -72,7 +72,7 @@ def save_muscle(body: MusclePreset, studio: StudioDep) -> JsonAnswer:
     "/muscles/fitted",
     status_code=201,
     response_model=MuscleAnswer,
-    responses=errors(400, 404, 409, 413, 415, 422, 429),
+    responses=errors(400, 404, 409, 413, 415, 422, 429, 507),
     openapi_extra=request_examples.worked("fitted_muscle"),
 )
 async def keep_fitted_muscle(

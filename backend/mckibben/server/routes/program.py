@@ -3,24 +3,31 @@
 from __future__ import annotations
 
 import hashlib
+import os
 import sys
+from collections.abc import Iterator
 from functools import cache
 from importlib import import_module
 from types import ModuleType
 from typing import Literal
 
 from fastapi import APIRouter, HTTPException, Request, Response
+from fastapi.concurrency import run_in_threadpool
 from fastapi.responses import HTMLResponse, RedirectResponse
 from pydantic import Field
 
 from mckibben.application.facts import DeclaredFigure, Units, figures, units
 from mckibben.application.json_text import to_json
+from mckibben.application.project.stored import Space
 from mckibben.documents.strict import Strict
+from mckibben.folder import free_space
 from mckibben.report.reference.http import http_reference
 from mckibben.report.reference.page import overview
 from mckibben.report.reference.python import python_reference, start_of
 from mckibben.server.answer import JsonAnswer, StrictRoute
-from mckibben.server.context import StudioDep
+from mckibben.server.context import SpaceDep, StudioDep
+from mckibben.server.lanes import Lanes
+from mckibben.server.metrics import MEDIA_TYPE, family, memory_of, open_descriptors
 from mckibben.server.schemas.common import errors
 from mckibben.simulation.integrate.background import is_compiling
 from mckibben.version import __version__
@@ -95,6 +102,60 @@ async def read_health(request: Request) -> JsonAnswer:
             "versions": request.app.state.versions,
         }
     )
+
+
+metrics_router = APIRouter(include_in_schema=False)
+
+
+@metrics_router.get("/metrics")
+async def read_metrics(request: Request, space: SpaceDep) -> Response:
+    """Figures of the server about itself, for Prometheus; like all else only with the token."""
+    state = request.app.state
+    # On the event loop, which alone changes them; what reads files, in a thread.
+    text = "".join([*state.requests.families(), *_of_lanes(state.workers, state.in_flight)])
+    text += "".join(await run_in_threadpool(lambda: list(_of_machine(space))))
+    return Response(text, media_type=MEDIA_TYPE)
+
+
+def _of_lanes(lanes: Lanes | None, in_flight: dict[bool, int]) -> Iterator[str]:
+    each = {} if lanes is None else lanes.each
+    yield from family(
+        "jobs", "gauge", "Jobs that run and that wait, by sort of work.",
+        (({"lane": name, "state": state}, number) for name, lane in each.items()
+         for state, number in (("running", lane.running), ("waiting", lane.waiting))),
+    )  # fmt: skip
+    yield from family(
+        "workers_ended_total", "counter", "Worker processes that have ended and were replaced, by why.",
+        (({"lane": name, "why": why}, number) for name, lane in each.items()
+         for why, number in lane.ended.items()),
+    )  # fmt: skip
+    yield from family(
+        "worker_memory_bytes", "gauge", "Resident memory of the worker processes.",
+        (({"lane": name, "pid": str(pid)}, size) for name, lane in each.items() for pid in lane.pids
+         if (size := memory_of(pid)) is not None),
+    )  # fmt: skip
+    yield from family(
+        "in_flight_bytes", "gauge", "Bodies of requests that arrive or are worked on.",
+        (({"what": "files" if files else "other"}, size) for files, size in in_flight.items()),
+    )  # fmt: skip
+
+
+def _of_machine(space: Space) -> Iterator[str]:
+    own, files = memory_of(os.getpid()), open_descriptors()
+    yield from family(
+        "memory_bytes", "gauge", "Resident memory of the server itself.", [] if own is None else [({}, own)]
+    )
+    yield from family(
+        "open_descriptors", "gauge", "Files and connections that the server has open.",
+        [] if files is None else [({}, files)],
+    )  # fmt: skip
+    yield from family(
+        "space_bytes", "gauge", "What is kept, by kind.",
+        (({"kind": each.kind, "what": what}, size) for each in space.ledger()
+         for what, size in (("taken", each.taken), ("restorable", each.restorable), ("quota", each.quota))),
+    )  # fmt: skip
+    free = free_space(space.store.data)
+    yield from family("disk_free_bytes", "gauge", "Left on the disk.", [] if free is None else [({}, free)])
 
 
 def _memory() -> int | None:

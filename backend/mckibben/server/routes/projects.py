@@ -6,21 +6,30 @@ Each route is a transaction of the database and runs in a thread; what reads fil
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import ExitStack
 from dataclasses import asdict
 from typing import Annotated, Any
 
 import orjson
 from fastapi import APIRouter, Path, Query, Request, Response
 from fastapi.concurrency import run_in_threadpool
+from fastapi.responses import FileResponse
 from pydantic import ConfigDict, Field
+from starlette.background import BackgroundTask
 
-from mckibben.application.project.projects import files_of, give_back, missing_files, packed, table_of
-from mckibben.application.study.store import StudyStore
+from mckibben.application.project.projects import (
+    files_of,
+    give_back,
+    missing_files,
+    packed,
+    table_of,
+    texts_in,
+)
 from mckibben.documents.strict import Strict
 from mckibben.projects.project import Project, ProjectSummary, Revision
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
-from mckibben.server.context import BeforeWork, ProjectsDep, StoreDep, StudioDep
+from mckibben.server.context import BeforeWork, ProjectsDep, SpaceDep, StoreDep, StudiesDep, StudioDep
 from mckibben.server.long_work import whole
 from mckibben.server.schemas.common import errors
 from mckibben.server.short_jobs import FilesOfProject, PackedProject
@@ -113,7 +122,7 @@ _FILE = {
 }
 
 
-@projects_router.get("", response_model=ProjectsAnswer, responses=errors(409, 422))
+@projects_router.get("", response_model=ProjectsAnswer, responses=errors(409, 422, 503, 507))
 def list_projects(
     projects: ProjectsDep,
     deleted: Annotated[bool, Query(description="Those in the bin instead of the others.")] = False,
@@ -127,14 +136,29 @@ def list_projects(
     "",
     status_code=201,
     response_model=ProjectAnswer,
-    responses=errors(400, 409, 413, 415, 422),
+    responses=errors(400, 409, 413, 415, 422, 503, 507),
     openapi_extra=request_examples.worked("project"),
 )
-def create_project(body: NewProject, projects: ProjectsDep, store: StoreDep, studio: StudioDep) -> JsonAnswer:
+def create_project(
+    body: NewProject,
+    projects: ProjectsDep,
+    store: StoreDep,
+    studio: StudioDep,
+    kept_studies: StudiesDep,
+    space: SpaceDep,
+) -> JsonAnswer:
     """Keep a document as a new project, with the measurements that it names and the table of its study."""
-    files = files_of(body.document, store)
-    studies, remarks = table_of(body.study, StudyStore(store.data), studio)
-    made = projects.create(body.document, title=body.title, notes=body.notes, files=files, studies=studies)
+    studies, remarks = table_of(body.study, kept_studies, studio)
+    made = space.with_room(
+        lambda: projects.create(
+            body.document,
+            title=body.title,
+            notes=body.notes,
+            files=files_of(body.document, store),
+            studies=studies,
+            answers=space.diagnoses.about(texts_in(body.document)),
+        )
+    )
     return JsonAnswer(_answer(made, remarks), status_code=201)
 
 
@@ -143,7 +167,7 @@ def create_project(body: NewProject, projects: ProjectsDep, store: StoreDep, stu
     status_code=201,
     dependencies=[BeforeWork],
     response_model=ProjectAnswer,
-    responses=errors(400, 409, 413, 422, 429),
+    responses=errors(400, 409, 413, 422, 429, 503, 507),
     openapi_extra=_FILE,
 )
 async def import_project(
@@ -151,8 +175,9 @@ async def import_project(
 ) -> JsonAnswer:
     """Unpack a project of another machine as a new one, with its history, measurements and study tables."""
     settings = request.app.state.settings
-    packed_one = PackedProject(await request.body(), settings.projects or settings.data)
-    made = orjson.loads(await whole(request, "project import", packed_one, studio, store))["id"]
+    async with request.app.state.scratch.received(request) as path:
+        packed_one = PackedProject(path, settings.projects or settings.data)
+        made = orjson.loads(await whole(request, "project import", packed_one, studio, store))["id"]
     return await run_in_threadpool(lambda: JsonAnswer(_answer(projects.open(made)), status_code=201))
 
 
@@ -160,7 +185,7 @@ async def import_project(
     "/{project_id}",
     dependencies=[BeforeWork],
     response_model=ProjectAnswer,
-    responses=errors(404, 409, 422, 429),
+    responses=errors(404, 409, 422, 429, 503, 507),
 )
 async def open_project(
     request: Request,
@@ -168,6 +193,8 @@ async def open_project(
     projects: ProjectsDep,
     store: StoreDep,
     studio: StudioDep,
+    kept_studies: StudiesDep,
+    space: SpaceDep,
     version: Annotated[int | None, Query(ge=1, description="An earlier version; left out: the last.")] = None,
 ) -> JsonAnswer:
     """A project; measurements and runs of studies that the server no longer has are stored again."""
@@ -178,8 +205,10 @@ async def open_project(
         await whole(request, "project files", wanted, studio, store)
 
     def answer() -> JsonAnswer:
+        for finished in projects.answers(project_id, space.diagnoses.names()):
+            space.diagnoses.bring(finished)
         studies = projects.studies(project_id) if project.studies else []
-        return JsonAnswer(_answer(project, give_back(studies, StudyStore(store.data), studio)))
+        return JsonAnswer(_answer(project, give_back(studies, kept_studies, studio)))
 
     return await run_in_threadpool(answer)
 
@@ -187,22 +216,32 @@ async def open_project(
 @projects_router.put(
     "/{project_id}",
     response_model=ProjectAnswer,
-    responses=errors(400, 404, 409, 413, 415, 422),
+    responses=errors(400, 404, 409, 413, 415, 422, 503, 507),
     openapi_extra=request_examples.worked("project_state"),
 )
 def save_project(
-    project_id: Id, body: ProjectState, projects: ProjectsDep, store: StoreDep, studio: StudioDep
+    project_id: Id,
+    body: ProjectState,
+    projects: ProjectsDep,
+    store: StoreDep,
+    studio: StudioDep,
+    kept_studies: StudiesDep,
+    space: SpaceDep,
 ) -> JsonAnswer:
     """Save a further state; 409 where somebody else has saved since ``base_version``."""
-    studies, remarks = table_of(body.study, StudyStore(store.data), studio)
-    saved = projects.save(
-        project_id,
-        body.document,
-        base_version=body.base_version,
-        files=files_of(body.document, store),
-        studies=studies,
-        label=body.label,
-        automatic=body.automatic,
+    studies, remarks = table_of(body.study, kept_studies, studio)
+    has, answered = projects.measurements(project_id), projects.answer_names(project_id)
+    saved = space.with_room(
+        lambda: projects.save(
+            project_id,
+            body.document,
+            base_version=body.base_version,
+            files=files_of(body.document, store, has),
+            studies=studies,
+            answers=space.diagnoses.about(texts_in(body.document), answered),
+            label=body.label,
+            automatic=body.automatic,
+        )
     )
     return JsonAnswer(_answer(saved, remarks))
 
@@ -210,7 +249,7 @@ def save_project(
 @projects_router.patch(
     "/{project_id}",
     response_model=ProjectSummary,
-    responses=errors(400, 404, 409, 413, 415, 422),
+    responses=errors(400, 404, 409, 413, 415, 422, 503, 507),
     openapi_extra=request_examples.worked("project_change"),
 )
 def describe_project(project_id: Id, body: ProjectChange, projects: ProjectsDep) -> JsonAnswer:
@@ -225,31 +264,38 @@ def describe_project(project_id: Id, body: ProjectChange, projects: ProjectsDep)
     "/{project_id}/copies",
     status_code=201,
     response_model=ProjectAnswer,
-    responses=errors(400, 404, 409, 413, 415, 422),
+    responses=errors(400, 404, 409, 413, 415, 422, 503, 507),
     openapi_extra=request_examples.worked("project_copy"),
 )
-def copy_project(project_id: Id, body: ProjectCopy, projects: ProjectsDep) -> JsonAnswer:
+def copy_project(project_id: Id, body: ProjectCopy, projects: ProjectsDep, space: SpaceDep) -> JsonAnswer:
     """A copy with the last document and all measurements."""
-    return JsonAnswer(_answer(projects.duplicate(project_id, title=body.title)), status_code=201)
+    copy = space.with_room(lambda: projects.duplicate(project_id, title=body.title))
+    return JsonAnswer(_answer(copy), status_code=201)
 
 
-@projects_router.delete("/{project_id}", response_model=ProjectSummary, responses=errors(404, 409, 422))
+@projects_router.delete(
+    "/{project_id}", response_model=ProjectSummary, responses=errors(404, 409, 422, 503, 507)
+)
 def delete_project(
     project_id: Id,
     projects: ProjectsDep,
     erase: Annotated[bool, Query(description="For good; it has to be in the bin already.")] = False,
 ) -> JsonAnswer:
-    """Put a project into the bin, where it stays for 30 days; or erase it from there."""
+    """Put a project into the bin, where it stays until its room is needed; or erase it from there."""
     return JsonAnswer(_info(projects.erase(project_id) if erase else projects.delete(project_id)))
 
 
-@projects_router.post("/{project_id}/restore", response_model=ProjectSummary, responses=errors(404, 409, 422))
+@projects_router.post(
+    "/{project_id}/restore", response_model=ProjectSummary, responses=errors(404, 409, 422, 503, 507)
+)
 def restore_project(project_id: Id, projects: ProjectsDep) -> JsonAnswer:
     """Take a project out of the bin."""
     return JsonAnswer(_info(projects.restore(project_id)))
 
 
-@projects_router.get("/{project_id}/history", response_model=HistoryAnswer, responses=errors(404, 409, 422))
+@projects_router.get(
+    "/{project_id}/history", response_model=HistoryAnswer, responses=errors(404, 409, 422, 503, 507)
+)
 def read_history(project_id: Id, projects: ProjectsDep) -> JsonAnswer:
     """The versions of a project, the last one first; open one with ``?version=``."""
     return JsonAnswer({"history": [asdict(each) for each in projects.history(project_id)]})
@@ -258,16 +304,24 @@ def read_history(project_id: Id, projects: ProjectsDep) -> JsonAnswer:
 @projects_router.get(
     "/{project_id}/file",
     response_class=Response,
-    responses={200: {"content": _ZIP, "description": "The packed project."}, **errors(404, 409, 422)},
+    responses={
+        200: {"content": _ZIP, "description": "The packed project."},
+        **errors(404, 409, 422, 503, 507),
+    },
 )
-def export_project(project_id: Id, projects: ProjectsDep) -> Response:
+def export_project(request: Request, project_id: Id, projects: ProjectsDep) -> Response:
     """A project as one file, with its history, measurements and study tables."""
-    name, content = packed(projects, project_id)
-    return Response(
-        content,
-        media_type="application/zip",
-        headers={"content-disposition": f'attachment; filename="{name}"'},
-    )
+    scratch = request.app.state.scratch
+    with ExitStack() as stack:
+        path, into = stack.enter_context(scratch.file())
+        name = packed(projects, project_id, into)
+        return FileResponse(
+            path,
+            media_type="application/zip",
+            headers={"content-disposition": f'attachment; filename="{name}"'},
+            background=BackgroundTask(stack.pop_all().close),
+        )
+    raise AssertionError("an exit stack passes all exceptions on")
 
 
 def _info(summary: ProjectSummary) -> dict[str, Any]:

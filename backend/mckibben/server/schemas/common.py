@@ -35,7 +35,8 @@ ERRORS: dict[int | str, dict[str, Any]] = {
     status: {"model": ErrorBody, "description": text}
     for status, text in {
         400: "The body or a header is malformed.",
-        403: "Host, origin or token refused.",
+        401: "The token is missing or wrong.",
+        403: "Host or origin refused.",
         404: "Not found.",
         409: "It conflicts with what is stored, or cannot be stored.",
         413: "The body is too large.",
@@ -43,10 +44,12 @@ ERRORS: dict[int | str, dict[str, Any]] = {
         422: "The input cannot be used.",
         429: "Too many jobs wait; Retry-After says how long, about.",
         500: "The server failed; the log says more.",
+        503: "Not at the moment: a database or a process that it needs does not answer; later it may.",
+        507: "No space: what is kept takes all that it may, or the disk is full; with figures.",
     }.items()
 }
 
 
 def errors(*statuses: int) -> dict[int | str, dict[str, Any]]:
-    """The documented errors of a route; 403 and 500 belong to all."""
-    return {status: ERRORS[status] for status in sorted({403, 500, *statuses})}
+    """The documented errors of a route; 401, 403 and 500 belong to all."""
+    return {status: ERRORS[status] for status in sorted({401, 403, 500, *statuses})}

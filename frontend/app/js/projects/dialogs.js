@@ -140,7 +140,7 @@ export async function showProjects() {
         ? h(
           "p",
           { class: "undone", role: "status" },
-          `“${gone.value.title}” is in the bin for 30 days. `,
+          `“${gone.value.title}” is in the bin until its room is needed. `,
           h("button", {
             type: "button",
             onclick: () =>

@@ -1,6 +1,6 @@
 // @ts-check
 // Requests to the server, and the one shape of its errors.
-import { attend, found, lost, watch } from "./connection.js";
+import { attend, found, locked, lost, watch } from "./connection.js";
 
 export class ApiError extends Error {
   /** @param {string} message @param {{field?: string | null, hint?: string | null, status?: number}} [more]
@@ -36,7 +36,7 @@ async function reach(path, init, long = true) {
   const end = long ? () => {} : watch();
   try {
     const response = await fetch(path, init);
-    found();
+    (response.status === 401 ? locked : found)();
     return response;
   } catch (error) {
     if (init?.signal?.aborted) throw error;

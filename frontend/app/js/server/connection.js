@@ -2,7 +2,8 @@
 // Whether the server answers. While it does not, one banner says so in every view, and the page tries again by itself.
 import { batch, signal } from "../reactive.js";
 
-/** `slow`: a short request waits for long. @typedef {"up" | "slow" | "gone"} Connection */
+/** `slow`: a short request waits for long; `locked`: the server asks for its token.
+ * @typedef {"up" | "slow" | "gone" | "locked"} Connection */
 
 const SLOW_MS = 5000, FIRST_MS = 1000, LONGEST_MS = 10_000;
 /** How long the server may take to say that it is there [ms]. */
@@ -20,12 +21,18 @@ export function lost() {
   if (!timer) timer = setTimeout(look, pause);
 }
 
+/** The server has another token than this page. */
+export function locked() {
+  connection.value = "locked";
+  if (!timer) timer = setTimeout(look, pause);
+}
+
 /** A request was answered. */
 export function found() {
   clearTimeout(timer);
   timer = 0;
   pause = FIRST_MS;
-  if (connection.peek() === "gone") {
+  if (connection.peek() === "gone" || connection.peek() === "locked") {
     batch(() => {
       connection.value = waiting ? "slow" : "up";
       returned.value++;
@@ -36,12 +43,16 @@ export function found() {
 /** Whether the server compiles its integrators, once after an installation: what needs them waits. */
 export const compiling = signal(false);
 
-/** Whether the server is there. A question that gets lost, in a sleeping network for example, would wait for ever.
- * @throws when there is no answer in time */
-const isThere = async () => {
-  const answer = await fetch("/api/health", { cache: "no-store", signal: AbortSignal.timeout(HEALTH_MS) });
-  if (answer.ok) compiling.value = (await answer.json()).compiling;
-  return answer.ok;
+/** Asks whether the server is there. A question that gets lost, in a sleeping network for example, would wait for
+ * ever. @returns {Promise<() => void>} what follows from the answer */
+const asked = async () => {
+  try {
+    const answer = await fetch("/api/health", { cache: "no-store", signal: AbortSignal.timeout(HEALTH_MS) });
+    if (answer.ok) compiling.value = (await answer.json()).compiling;
+    return answer.ok ? found : answer.status === 401 ? locked : lost;
+  } catch {
+    return lost;
+  }
 };
 
 /** Looks whether the server is there, less and less often. */
@@ -49,12 +60,7 @@ export async function look() {
   clearTimeout(timer);
   timer = 0;
   pause = Math.min(2 * pause, LONGEST_MS);
-  try {
-    if (await isThere()) return found();
-  } catch {
-    // still gone
-  }
-  lost();
+  (await asked())();
 }
 
 /** Says that something is slow when it takes for long. @param {() => void} [then] what else happens then
@@ -79,12 +85,7 @@ function time(then) {
 /** Asks whether the server is still there; where it is known to be gone, `look` does. */
 async function check() {
   if (connection.peek() === "gone") return;
-  try {
-    if (await isThere()) return found();
-  } catch {
-    // it is gone
-  }
-  lost();
+  (await asked())();
 }
 
 /** Watches a short request: when it takes for long, the server is asked whether it is still there.

@@ -10,6 +10,7 @@ import { KIND_TITLES } from "./columns.js";
 
 /** @typedef {import("../../types.js").S["KeptData"]} Kept */
 /** @typedef {import("../../types.js").S["KeptItem"]} Item */
+/** @typedef {import("../../types.js").S["KeptSpace"]} Space */
 
 const kept = signal(/** @type {Kept | null} */ (null));
 const fault = signal("");
@@ -49,6 +50,12 @@ async function bringBack(item) {
   if (await take(() => send("POST", `${place(item)}/restore`), item.kind)) gone.value = null;
 }
 
+/** @param {Item} item */
+const erase = (item) => take(() => send("DELETE", `${place(item)}?erase=true`), item.kind);
+
+/** @param {Space["kind"]} kind */
+const eraseAll = (kind) => take(() => send("DELETE", `/api/kept/space/bin/${kind}`));
+
 /** @param {Item} item @param {string} name */
 async function rename(item, name) {
   const done = name === item.name || await take(
@@ -60,7 +67,9 @@ async function rename(item, name) {
 
 /** @param {number} bytes */
 const sizeOf = (bytes) =>
-  bytes < 1e6
+  !bytes
+    ? "0\u00a0kB"
+    : bytes < 1e6
     ? `${brief(Math.max(bytes / 1e3, 0.1))}\u00a0kB`
     : bytes < 1e9
     ? `${brief(bytes / 1e6)}\u00a0MB`
@@ -134,13 +143,55 @@ const deletedRow = (item) =>
     null,
     h("span", null, item.name),
     h("small", null, about(item)),
-    h("button", {
-      type: "button",
-      class: "link",
-      "aria-label": `Restore ${item.name}`,
-      onclick: () => bringBack(item),
-    }, "Restore"),
+    h(
+      "span",
+      { class: "kept-actions" },
+      h("button", {
+        type: "button",
+        class: "link",
+        "aria-label": `Restore ${item.name}`,
+        onclick: () => bringBack(item),
+      }, "Restore"),
+      h("button", {
+        type: "button",
+        class: "link",
+        "aria-label": `Erase ${item.name} now`,
+        onclick: () => erase(item),
+      }, "Erase now"),
+    ),
   );
+
+const SPACE = {
+  measurements: ["Measurements", "deleted"],
+  projects: ["Projects with all versions", "deleted"],
+  studies: ["Rows of studies", "made again when needed"],
+  diagnoses: ["Finished diagnoses", "made again when needed"],
+  presets: ["Presets", "deleted"],
+};
+
+/** @param {Space} space */
+const spaceRow = (space) => {
+  const [title, spare] = SPACE[space.kind];
+  return h(
+    "li",
+    null,
+    h("span", null, title),
+    h(
+      "small",
+      null,
+      `${sizeOf(space.taken)} of ${sizeOf(space.quota)}` +
+        (space.restorable ? `, ${sizeOf(space.restorable)} ${spare}` : ""),
+    ),
+    space.restorable
+      ? h("button", {
+        type: "button",
+        class: "link",
+        "aria-label": `Erase now: ${title}, ${spare}`,
+        onclick: () => eraseAll(space.kind),
+      }, "Erase now")
+      : null,
+  );
+};
 
 function undoLine() {
   const item = gone.value;
@@ -159,7 +210,7 @@ export function keptCard() {
   });
   return () => {
     const all = kept.value;
-    if (!all || !(all.items.length + all.deleted.length)) return null;
+    if (!all || !(all.items.length + all.deleted.length || all.space.some((s) => s.restorable))) return null;
     return h(
       "section",
       { class: "card kept", "aria-label": "Kept" },
@@ -167,7 +218,7 @@ export function keptCard() {
         "div",
         { class: "card-head" },
         h("h2", null, "Kept"),
-        h("small", null, `files: ${sizeOf(all.size)} of ${sizeOf(all.quota)}`),
+        all.free === null ? null : h("small", null, `${sizeOf(all.free)} left on the disk`),
       ),
       h("div", { role: "status" }, undoLine),
       () => fault.value ? h("p", { class: "warn", role: "alert" }, fault.value) : null,
@@ -190,10 +241,16 @@ export function keptCard() {
           "details",
           null,
           h("summary", null, `Deleted (${all.deleted.length})`),
-          h("p", null, h("small", null, "Can be restored for 30 days, files until their space is needed.")),
+          h("p", null, h("small", null, "Can be restored until their room is needed.")),
           h("ul", { class: "plain" }, ...all.deleted.map(deletedRow)),
         )
         : null,
+      h(
+        "details",
+        null,
+        h("summary", null, "Space"),
+        h("ul", { class: "plain" }, ...all.space.map(spaceRow)),
+      ),
     );
   };
 }
