@@ -212,10 +212,10 @@ class SecurityMiddleware:
         scheme, _, secret = headers.get("authorization", "").partition(" ")
         if known or (scheme.lower() in ("bearer", "token") and _same(secret.strip(), token)):
             return None
-        if self._own_programs and not any(name in headers for name in _OF_BROWSERS):
-            # It could read the file with the token. A browser is asked: it does what other pages want.
-            if is_own_account(scope.get("client"), scope.get("server")):
-                return None
+        # A program could read the file with the token. A browser is asked: it does what other pages want.
+        is_program = self._own_programs and not any(name in headers for name in _OF_BROWSERS)
+        if is_program and is_own_account(scope.get("client"), scope.get("server")):
+            return None
         answer = error_answer(
             401,
             "This server needs its token.",
