@@ -36,7 +36,7 @@ from mckibben.presets.quantity import Grade, quantities
 ROOT = Path(__file__).parents[1]
 PRESETS = ROOT / "presets"
 REFERENCE_DATA = ROOT.parent / "shared" / "data"
-DOCUMENTS = ("designs", "drives", "tasks")  # checked by what runs them
+DOCUMENTS = ("designs", "drives", "examples", "tasks")  # checked by what runs them
 FILES = sorted(path for path in PRESETS.glob("*/*.json") if path.parent.name not in DOCUMENTS)
 TASKS = sorted((PRESETS / "tasks").glob("*.json"))
 BLOCKED_FORCE = {10: 473.3, 20: 1515.0, 40: 6203.0}  # MuscleSIM, 6 bar, 0 %

@@ -46,7 +46,7 @@ _COMMANDS: dict[Door, dict[str, str]] = {
     "http": {
         "use mckibben compare DATA --model": "POST /api/comparisons",
         "use mckibben curves --muscle": "POST /api/curves",
-        "use mckibben diagnose": "PUT /api/measurements",
+        "use mckibben diagnose": "send it to /api/measurements",
         "use mckibben presets": "GET /api/presets",
         "use mckibben simulate": "POST /api/simulations",
         "use mckibben size": "POST /api/sizings",
