@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mckibben.measurement.measurement import Measurement, lengths
-from mckibben.measurement.reading import read_measurement
+from mckibben.measurement.reading import preview, read_measurement
 from mckibben.physics.errors import InputError
 
 DATA = Path(__file__).parents[4] / "shared" / "data"
@@ -668,3 +668,10 @@ def test_x_values_that_the_file_calls_something_else_are_no_time(change: tuple[s
     found = read(LVM.replace(*change), "a.lvm")
     assert "time" not in found.columns
     assert ("X_Value", "it is an axis of something else than time") in found.unread
+
+
+def test_names_with_an_address_behind_their_quotes_are_taken_as_they_stand() -> None:
+    text = '"p":IW64 [bar];"Länge":IW66 [mm]\n1,5;300\n2;290\n3;280\n'
+    found = preview(text.encode(), "a.csv")
+    assert [column.header for column in found.columns] == ["p:IW64 [bar]", "Länge:IW66 [mm]"]
+    np.testing.assert_allclose(found.points["pressure"], [1.5e5, 2e5, 3e5])

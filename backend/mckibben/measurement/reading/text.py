@@ -326,28 +326,50 @@ def _usual_width(lines: Sequence[str], delimiter: str | None) -> int:
 def _quoted(lines: Sequence[str], delimiter: str, name: str) -> list[tuple[int, list[str]]]:
     """Rows with quoted cells, which may hold delimiters and ends of lines."""
     csv.field_size_limit(10_000_000)
-    reader = csv.reader(
-        (line + "\n" for line in lines), delimiter=delimiter, skipinitialspace=True, strict=True
-    )
     rows: list[tuple[int, list[str]]] = []
     begin = 1
-    try:
-        for cells in reader:
-            if any(cell.count("\n") > _MOST_LINES_OF_A_CELL for cell in cells):
-                raise InputError(
-                    f'{name}, row {begin}: a quote (") is never closed',
-                    field=f"row {begin}",
-                    hint='close it with "',
+    while begin <= len(lines):
+        reader = csv.reader(
+            (line + "\n" for line in lines[begin - 1 :]),
+            delimiter=delimiter, skipinitialspace=True, strict=True,
+        )  # fmt: skip
+        first = begin
+        try:
+            for cells in reader:
+                if any(cell.count("\n") > _MOST_LINES_OF_A_CELL for cell in cells):
+                    raise InputError(
+                        f'{name}, row {begin}: a quote (") is never closed',
+                        field=f"row {begin}",
+                        hint='close it with "',
+                    )
+                rows.append((begin, [cell.strip() for cell in cells]))
+                begin = first + reader.line_num
+            break
+        except csv.Error as error:
+            cells = _as_it_stands(lines[begin - 1], delimiter)
+            if cells is None:
+                closed = "unexpected end" not in str(error)
+                what = (
+                    f"the quotes are wrong: {error}" if closed else 'a quote (") is opened and never closed'
                 )
-            rows.append((begin, [cell.strip() for cell in cells]))
-            begin = reader.line_num + 1
-    except csv.Error as error:
-        closed = "unexpected end" not in str(error)
-        what = f"the quotes are wrong: {error}" if closed else 'a quote (") is opened and never closed'
-        raise InputError(
-            f"{name}, row {begin}: {what}", field=f"row {begin}", hint='close it with "'
-        ) from error
+                raise InputError(
+                    f"{name}, row {begin}: {what}", field=f"row {begin}", hint='close it with "'
+                ) from error
+            rows.append((begin, cells))
+            begin += 1
     return rows
+
+
+def _as_it_stands(line: str, delimiter: str) -> list[str] | None:
+    """The cells of a line of names with something behind their quotes: ``"AI_p":IW64``; None = it has numbers
+    there, or a quote is open.
+    """
+    cells = [cell.strip() for cell in line.split(delimiter)]
+    odd = [cell for cell in cells if '"' in cell.strip('"')]
+    if any(cell.count('"') % 2 for cell in cells) or not odd:
+        return None
+    bare = [cell.replace('"', "") for cell in cells]
+    return None if any(kind_of(cell.replace('"', "")) != TEXT for cell in odd) else bare
 
 
 def _paired(lines: Sequence[str]) -> tuple[list[list[Cell]], list[int]] | None:
