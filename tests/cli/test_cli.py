@@ -424,7 +424,7 @@ def test_serve_prints_its_link_when_it_is_ready_and_stops_on_interrupt(
     found = re.search(r"(http://127\.0\.0\.1:\d+)/\?token=(\S{43}) ", line)
     assert found is not None
     plain = urllib.request.build_opener(urllib.request.ProxyHandler({}))
-    browser = urllib.request.Request(f"{found[1]}/api/health", headers={"sec-fetch-site": "none"})
+    browser = urllib.request.Request(f"{found[1]}/api/health", headers={"sec-fetch-site": "cross-site"})
     with pytest.raises(urllib.error.HTTPError) as refused:
         plain.open(browser, timeout=5)
     assert refused.value.code == 401

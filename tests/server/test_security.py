@@ -278,16 +278,17 @@ def test_no_path_leads_out_of_its_folder(shared_client: TestClient, path: str) -
     assert_error(shared_client.get(f"{URL}{path}"), 404)
 
 
-def test_programs_of_the_own_account_need_no_token_and_browsers_do(
+def test_the_own_account_needs_no_token_and_other_pages_do(
     opened: Open, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Whose connection it is, the kernel says (test_peer.py)."""
     monkeypatch.setattr(security, "is_own_account", lambda client, server: True)
     at = {"host": "127.0.0.1", "url": "http://127.0.0.1:8000"}
     assert opened(**at).get(HEALTH).status_code == 401
-    client = opened(**at, own_programs=True)
-    assert client.get(HEALTH).status_code == 200
-    for header in ("sec-fetch-site", "sec-fetch-mode", "referer"):
-        assert client.get(HEALTH, headers={header: "same-origin"}).status_code == 401
+    client = opened(**at, own_account=True)
+    assert client.get(HEALTH).status_code == 200  # a program
+    for site, status in (("none", 200), ("same-origin", 200), ("same-site", 401), ("cross-site", 401)):
+        assert client.get(HEALTH, headers={"sec-fetch-site": site}).status_code == status
+    assert client.get(HEALTH, headers={"referer": "http://127.0.0.1:8000/"}).status_code == 401
     monkeypatch.setattr(security, "is_own_account", lambda client, server: False)
-    assert opened(**at, own_programs=True).get(HEALTH).status_code == 401
+    assert opened(**at, own_account=True).get(HEALTH).status_code == 401

@@ -85,7 +85,7 @@ def run(
         port=actual_port,
         token=token,
         once=once,
-        own_programs=uds is None and is_loopback(host) and stated_token is None,
+        own_account=uds is None and is_loopback(host) and stated_token is None,
         user_presets=chosen.user_presets,
         effects=chosen.effects,
         data=chosen.data,

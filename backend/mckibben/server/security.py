@@ -55,7 +55,6 @@ SECURITY_HEADERS = {
 }
 _RAW_HEADERS = [(name.encode(), value.encode()) for name, value in SECURITY_HEADERS.items()]
 _IN_LINKS = ("token", "once")
-_OF_BROWSERS = ("sec-fetch-site", "sec-fetch-mode", "origin", "referer")
 _ONCE_WITHIN = 300.0  # s
 _TOKEN = re.compile(r"[A-Za-z0-9_-]{43}")
 _READING = frozenset({"GET", "HEAD"})
@@ -132,7 +131,7 @@ class SecurityMiddleware:
         self.app = app
         self._token = settings.token
         self._once, self._made = settings.once, time.monotonic()
-        self._own_programs = settings.own_programs
+        self._own_account = settings.own_account
         # Cookies are shared between ports: two servers on one machine need two names.
         self._cookie = f"mckibben-{settings.port}"
         self._hosts = {*LOOPBACK_NAMES, settings.host.strip("[]").lower()}
@@ -212,9 +211,12 @@ class SecurityMiddleware:
         scheme, _, secret = headers.get("authorization", "").partition(" ")
         if known or (scheme.lower() in ("bearer", "token") and _same(secret.strip(), token)):
             return None
-        # A program could read the file with the token. A browser is asked: it does what other pages want.
-        is_program = self._own_programs and not any(name in headers for name in _OF_BROWSERS)
-        if is_program and is_own_account(scope.get("client"), scope.get("server")):
+        # What its user runs could read the file with the token, so that it need not send it.
+        if (
+            self._own_account
+            and not _is_for_other_pages(headers)
+            and is_own_account(scope.get("client"), scope.get("server"))
+        ):
             return None
         answer = error_answer(
             401,
@@ -243,6 +245,14 @@ def _is_address(name: str) -> bool:
     except ValueError:
         return False
     return True
+
+
+def _is_for_other_pages(headers: Headers) -> bool:
+    """Whether a browser says that another page wants it, or does not say whose wish it is."""
+    site = headers.get("sec-fetch-site")
+    if site is None:  # a program, or a browser of before 2023
+        return "origin" in headers or "referer" in headers
+    return site not in ("none", "same-origin")
 
 
 def _same(secret: str, token: str) -> bool:

@@ -39,8 +39,8 @@ class Settings:
         token: secret that every request must contain; required when ``host`` is not loopback. None where
             another one decides who may connect, as the file of a Unix socket does.
         once: secret of a link that works once, in the minutes after the start.
-        own_programs: whether programs of the account that it runs under need no token (Linux, loopback); a
-            browser needs it always.
+        own_account: whether what the account that it runs under starts needs no token (Linux, loopback); a
+            browser needs it for what other pages want.
         presets: folder of the built-in presets.
         user_presets: folder of the user's presets, where new ones are saved; None = saving is refused.
         effects: folders with further effect files.
@@ -62,7 +62,7 @@ class Settings:
     port: int = 8000
     token: str | None = None
     once: str | None = None
-    own_programs: bool = False
+    own_account: bool = False
     presets: Path = field(default_factory=presets_folder)
     user_presets: Path | None = None
     effects: tuple[Path, ...] = ()
