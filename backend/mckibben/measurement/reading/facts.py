@@ -15,7 +15,7 @@ from mckibben.measurement.measurement import CHANNEL_UNITS
 from mckibben.measurement.reading.chosen import chosen, places
 from mckibben.measurement.reading.conditions import CONDITION_UNITS, TEXT_CONDITIONS, condition_value
 from mckibben.measurement.reading.correction import Choice, Correction
-from mckibben.measurement.reading.decide import Facts
+from mckibben.measurement.reading.decide import YOU, Facts
 from mckibben.measurement.reading.evidence import NO_UNIT, of_code
 from mckibben.measurement.reading.heads import taken_apart
 from mckibben.measurement.reading.lexicon import REFERENCES, folded
@@ -32,7 +32,6 @@ _OTHER_UNITS = {"diameter": "m"}  # of conditions that only the physics uses
 _SIZE = re.compile(r"(?:DMSP|MAS)-(\d{1,3})")
 _YOU = Span("you", "")
 _ANSWER = Span("your answer", "")
-_SAID_BY_YOU = 60.0  # nats
 HELD_BY_YOU = "held, as the user says"
 #: Conditions of which two values are asked about -> (their name, the option that sets them).
 _ASKED = {
@@ -177,7 +176,7 @@ def known_of(table: Table, evidence: Sequence[Evidence], name: str, correction: 
     said = {e.value for e in evidence if e.facet == "kind"}
     by_user, held_by_user = chosen(table, correction.columns, name)
     answers = [
-        Evidence(FILE, f"held:{channel}", quantity, _SAID_BY_YOU, _ANSWER, HELD_BY_YOU)
+        Evidence(FILE, f"held:{channel}", quantity, YOU, _ANSWER, HELD_BY_YOU)
         for channel, quantity in held_by_user.items()
     ]
     held, several = _held(table, (*evidence, *answers), conditions, messages)

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from mckibben.measurement.reading.heads import taken_apart
 from mckibben.measurement.reading.lexicon import pattern_of, rules, word_set, words_of
-from mckibben.measurement.reading.units import RAW, Unit, number_of, unit_of
+from mckibben.measurement.reading.units import RAW, Unit, dimension_of, number_of, unit_of
 
 _NUMBER = r"[-+]?\d{1,9}(?:[.,]\d{1,9})?"
 _ANSWER_RANGE = re.compile(
@@ -71,7 +71,7 @@ def scales_in(text: str) -> tuple[tuple[Scale, str], ...]:
         for scale, match in slopes:
             near = [o for o in offsets if len(slopes) == 1 or 0 <= o.start() - match.end() < _NEAR]
             scale = _shifted(scale, match, zeros, near)
-            is_length = scale.unit in _LENGTHS
+            is_length = dimension_of(scale.unit) == "length"
             if at_zero is not None and (
                 (is_length and at_zero.at_rest) or (len(slopes) == 1 and not scale.offset)
             ):
@@ -114,7 +114,6 @@ class _ZeroReading(NamedTuple):
     at_rest: bool
 
 
-_LENGTHS = ("mm", "cm", "m", "in")
 _RAW_READING = re.compile(
     r"(?i)(?<![\w.,])(?P<number>[-+−]?\d{1,7}(?:[.,]\d{1,6})?)\s?(?P<raw>m?V|m?A|counts?|digits?|%)(?![\w/])"
 )

@@ -330,7 +330,7 @@ def _quoted(lines: Sequence[str], delimiter: str, name: str) -> list[tuple[int, 
     begin = 1
     while begin <= len(lines):
         reader = csv.reader(
-            (line + "\n" for line in lines[begin - 1 :]),
+            (lines[k] + "\n" for k in range(begin - 1, len(lines))),  # no copy: each odd line begins anew
             delimiter=delimiter, skipinitialspace=True, strict=True,
         )  # fmt: skip
         first = begin
