@@ -195,6 +195,8 @@ class Probability:
     """
     even: float = 0.5
     """Probability below which an effect is missing only perhaps: it is less likely than not."""
+    unknown: float = 0.1
+    """Probability before any data that something acts which no effect of the catalogue describes."""
     read: float = 0.99
     """Probability of an effect that is read from the data, without a fit that could mistake it for another
     one.

@@ -69,7 +69,8 @@ def test_of_several_unlikely_effects_the_likeliest_comes_first_and_the_last_one_
     whole = fitted(0.99, "creep", "leak", "mullins")
     creep, with_leak = fitted(1.0, "creep"), fitted(0.992, "creep", "leak")
     with_mullins = fitted(0.999, "creep", "mullins")
-    found = asked(whole, creep, with_leak, with_mullins, fitted(9.0, "leak", "mullins"), fitted(10.0))
+    less = fitted(9.0, "leak", "mullins"), fitted(9.0, "leak"), fitted(9.0, "mullins"), fitted(10.0)
+    found = asked(whole, creep, with_leak, with_mullins, *less)
     assert [name for name, _ in found.steps] == ["leak", "mullins"]
     assert [model for _, model in found.steps] == [with_leak, whole]
     assert [item.effect for item in found.corrections] == ["mullins", "leak"]
@@ -120,10 +121,10 @@ def test_beside_a_rest_that_nothing_explains_an_effect_must_be_likelier_than_not
     half = fitted(5.0, "creep")
     alone = asked(half, fitted(10.0))
     assert [item.effect for item in alone.evidence] == ["creep"]
-    beside = asked(half, fitted(10.0), unknown=1.0, enough=False)
+    beside = asked(half, fitted(10.0), unknown=1.0, left=True, enough=False)
     assert beside.evidence == ()
     assert [item.effect for item in beside.corrections] == ["creep"]
-    nearly_all = asked(fitted(1.2, "creep"), fitted(10.0), unknown=1.0, enough=False)
+    nearly_all = asked(fitted(1.2, "creep"), fitted(10.0), unknown=1.0, left=True, enough=False)
     assert [item.effect for item in nearly_all.evidence] == ["creep"]
 
 
@@ -131,3 +132,20 @@ def test_where_the_data_decide_nothing_no_effect_is_named_that_is_hardly_likely(
     small = fitted(9.99, "creep")
     assert [item.effect for item in asked(small, fitted(10.0)).evidence] == ["creep"]
     assert asked(small, fitted(10.0), enough=False).evidence == ()
+
+
+def test_an_effect_that_a_free_surface_explains_as_well_is_neither_called_missing_nor_kept() -> None:
+    """Two effects reach the noise; beside a surface one of them adds nothing, the other one much."""
+    both = fitted(1.0, "creep", "leak")
+    visited = both, fitted(5.0, "creep"), fitted(9.0, "leak"), fitted(10.0)
+
+    def likely(**worth: float) -> Supported:
+        return asked(*visited, beside=lambda model: sum(worth[name] for name in model.fit_model.ids))
+
+    assert [item.effect for item in likely(creep=10.0, leak=10.0).evidence] == ["creep", "leak"]
+    one = likely(creep=10.0, leak=-10.0)
+    assert [item.effect for item in one.evidence] == ["creep"]
+    assert (one.firm.fit_model.ids, one.steps) == (("creep",), ())
+    assert [(item.effect, item.kept) for item in one.corrections] == [("leak", False)]
+    none = likely(creep=-10.0, leak=-10.0)
+    assert (none.firm.fit_model.ids, none.evidence, none.steps) == ((), (), ())

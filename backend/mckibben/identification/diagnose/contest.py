@@ -3,19 +3,22 @@ r"""Wrong entry or missing physics: each statement that may be wrong competes wi
 Elasticity alone imitates a wrong rest length, so an entry is changed **together with** effects: first in the
 start model, then beside those of the best model, and for the most promising entries in a search of their own.
 Models with and without it are counted alike: the odds of the mistake and of each effect before any data, and
-the score of `mckibben.identification.diagnose.score`,
+the evidence Z of the model beside a free surface, which takes what is no law of the catalogue,
 
-.. math:: \ln\frac{P}{1-P} = \ln\pi + \sum_{e\in E}\ln o_e - \sum_{e\in D}\ln o_e + \tfrac12(S_D - S_E)
+.. math:: \ln\frac{P}{1-P} = \ln\pi + \sum_{e\in E}\ln o_e - \sum_{e\in D}\ln o_e + \ln Z_E - \ln Z_D
 
-An entry stands, and is asked about first, where it explains the data to the noise as effects do, with fewer
-of them: a caliper is cheaper than an experiment. What the file says in words, or the catalogue of the
-muscle, stands against it unless the effects leave more than the noise.
+with half the difference of the scores of `mckibben.identification.diagnose.score` in its place where the rows
+are too few for a surface. An entry stands, and is asked about first, where it explains the data to the noise
+as effects do, with fewer of them: a caliper is cheaper than an experiment. What the file says in words, or the
+catalogue of the muscle, stands against it unless the effects leave more than the noise. An entry that is less
+likely than any formula does not stand.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -29,6 +32,7 @@ from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
 from mckibben.identification.predict.fit_model import FitModel, fixed_beside
 from mckibben.identification.residual.noise import allowing_for_errors, noise_of
+from mckibben.identification.residual.surface import log_evidence
 from mckibben.identification.thresholds import ENTRIES, SCORE
 from mckibben.physics.errors import InputError
 
@@ -47,6 +51,16 @@ class _Trial:
         """Score of the best model, errors in the units of the stated data; a finer error does not count."""
         noise = None if floor is None else floor * self.scale
         return score(self.best, rows=rows, noise=noise) - 2.0 * rows * float(np.log(self.scale))
+
+    def evidence(self, model: FittedModel) -> float | None:
+        """Log evidence of a model with the entry beside a free surface, by the density of the stated data."""
+        found = log_evidence(model, self.fitter.predictor)
+        return None if found is None else found + len(model.residual) * float(np.log(self.scale))
+
+    def likelier_wrong(self, of_root: Callable[[], float | None]) -> bool:
+        """Whether the entry is likelier wrong than right, by the start model beside a surface, if that tells."""
+        changed, stated = self.evidence(self.root), of_root()
+        return changed is None or stated is None or changed - stated + float(np.log(self.entry.prior)) > 0.0
 
     @property
     def done(self) -> bool:
@@ -68,6 +82,7 @@ def contest(
     root: FittedModel,
     best: FittedModel,
     stated_noise: float | None,
+    beside: Callable[[FittedModel], float | None],
 ) -> tuple[WrongEntry, ...]:
     """The entries that explain the data better than the effects do, the most convincing first.
 
@@ -78,6 +93,7 @@ def contest(
         root: the start model fitted.
         best: the best model of the search.
         stated_noise: noise stated by the user.
+        beside: log evidence of a model with the entries as stated beside a free surface.
     """
     added = [name for name in best.fit_model.ids if name not in set(first.ids)]
     noise = fitter.noise
@@ -99,7 +115,7 @@ def contest(
     else:
         here = score(best, rows=rows, noise=noise)
         near = [trial for trial in trials if trial.score(rows, noise) < here - SCORE.least_score]
-    for trial in _promising(near, trials, best, added, fitter, at_floor=at_floor):
+    for trial in _promising(near, trials, best, added, fitter, partial(beside, root), at_floor=at_floor):
         trials[trials.index(trial)] = _searched(trial) if fitter.effort.thorough else _lighter(trial)
     if trials:
         noise = _lowest_noise(noise, trials, best)
@@ -110,7 +126,9 @@ def contest(
         entry
         for trial in trials
         if (
-            entry := _evidence(trial, first, root, best, rows=rows, noise=noise, here=here, at_floor=at_floor)
+            entry := _evidence(
+                trial, first, root, best, partial(beside, best), rows=rows, noise=noise, here=here, at_floor=at_floor
+            )
         )
         is not None
     ]
@@ -118,7 +136,7 @@ def contest(
         replace(each, stands=False, kept=True) if each.entry.hypothesis in statements.kept else each
         for each in found
     ]
-    return tuple(sorted(found, key=lambda each: (not each.stands, not each.kept, -each.confidence)))
+    return tuple(sorted(found, key=lambda each: (not each.stands, not each.kept, -each.odds)))
 
 
 def _at_its_best(
@@ -162,6 +180,7 @@ def _promising(
     best: FittedModel,
     added: Sequence[str],
     fitter: Fitter,
+    of_root: Callable[[], float | None],
     *,
     at_floor: bool,
 ) -> list[_Trial]:
@@ -169,7 +188,8 @@ def _promising(
 
     ``near`` are those that come close to the best model without one; besides them the quantity that by itself
     explains more than any effect with as few numbers does. Where the best model is at the noise with one
-    effect, an entry has to do without any, and needs no search.
+    effect, an entry has to do without any, and needs no search. Nor does one that is likelier right than wrong
+    with the start model alone, beside a free surface that does what the effects do.
     """
     if at_floor and len(added) < 2:
         return []
@@ -186,7 +206,7 @@ def _promising(
         ]
         if alone.root.rmse < min(singles, default=0.0):
             chosen.append(alone)
-    return chosen
+    return [trial for trial in chosen if trial.likelier_wrong(of_root)]
 
 
 def _lowest_noise(noise: float | None, trials: Sequence[_Trial], best: FittedModel) -> float | None:
@@ -321,13 +341,14 @@ def _evidence(
     first: FitModel,
     root: FittedModel,
     best: FittedModel,
+    of_best: Callable[[], float | None],
     *,
     rows: float,
     noise: float | None,
     here: float,
     at_floor: bool,
 ) -> WrongEntry | None:
-    """The entry with its evidence; None where it explains nothing."""
+    """The entry with its evidence, beside that of the best model; None where it explains nothing."""
     entry, model = trial.entry, trial.best
     value, stderr = None, None
     if entry.free is not None:
@@ -347,9 +368,6 @@ def _evidence(
     drop = here - trial.score(rows, noise)
     gain = 1.0 - trial.rmse / best.rmse if best.rmse > 0.0 else 0.0
     excess, left = (max(rmse**2 - floor**2, 0.0) for rmse in (best.rmse, trial.rmse))
-    odds = float(np.log(entry.prior)) + 0.5 * drop
-    odds += sum(map(log_odds, model.fit_model.effects)) - sum(map(log_odds, best.fit_model.effects))
-    confidence = min(float(1.0 / (1.0 + np.exp(-np.clip(odds, -50.0, 50.0)))), ENTRIES.certain)
     simpler = len(effects) < added
     # With as many effects it may need fewer numbers: an angle and two constants for six of two effects.
     leaner = simpler or (len(effects) == added and len(model.free) < len(best.free))
@@ -362,6 +380,10 @@ def _evidence(
         stands = stands and best.rmse > SCORE.at_floor * floor
     if not (stands or (trial.rmse <= ENTRIES.as_good * best.rmse and leaner and drop > -SCORE.least_score)):
         return None
+    beside, beside_best = trial.evidence(model), of_best()
+    worth = 0.5 * drop if beside is None or beside_best is None else beside - beside_best
+    odds = float(np.log(entry.prior)) + worth
+    odds += sum(map(log_odds, model.fit_model.effects)) - sum(map(log_odds, best.fit_model.effects))
     whole = max(root.mean_square - floor**2, 1e-300)
     alone = max(trial.root.mean_square / trial.scale**2 - floor**2, 0.0)
     return WrongEntry(
@@ -374,6 +396,7 @@ def _evidence(
         scale=trial.scale,
         effects=effects,
         instead_of=done_without(best, model),
-        confidence=confidence,
-        stands=stands,
+        confidence=min(float(1.0 / (1.0 + np.exp(-np.clip(odds, -50.0, 50.0)))), ENTRIES.certain),
+        odds=odds,
+        stands=stands and worth > -0.5 * SCORE.least_score,
     )

@@ -280,7 +280,7 @@ def _whole(
     if statements is not None:
         context = contest(
             statements, fitter=fitter, first=prepared.first, root=prepared.root, best=found.model,
-            stated_noise=noise,
+            stated_noise=noise, beside=prepared.beside_a_surface,
         )  # fmt: skip
     best, judgement = missing.best, missing.judgement
     doubted = any(entry.stands for entry in context)

@@ -15,7 +15,7 @@ other are no evidence against the friction of a third one.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -23,7 +23,7 @@ import numpy as np
 from mckibben.identification.diagnose.score import score, score_within
 from mckibben.identification.diagnose.wrong_entry import WrongEntry
 from mckibben.identification.fit.fitted_model import FittedModel
-from mckibben.identification.thresholds import PROBABILITY
+from mckibben.identification.thresholds import PROBABILITY, SCORE
 from mckibben.physics.effect import Effect
 
 _TINY = 1e-12
@@ -164,6 +164,36 @@ def loss(best: FittedModel, without: FittedModel, root: FittedModel, *, noise: f
     lost = max(without.mean_square - best.mean_square, 0.0)
     explained = max(root.mean_square - best.mean_square, lost, 1e-300)
     return Loss(float(np.sqrt(lost)) / noise, float(np.sqrt(lost / explained)))
+
+
+def likelier_than_any_formula(
+    held: FittedModel,
+    without: FittedModel,
+    beside: Callable[[FittedModel], float | None],
+    *,
+    noise: float | None,
+) -> float:
+    r"""Probability that an effect is there, and not some formula of the same variables in its place.
+
+    Both models stand beside a free surface, which takes what they leave:
+    :math:`\ln\frac{P}{1-P} = \ln o_e + \ln Z_1 - \ln Z_0`. What acts as no effect of the catalogue does leaves
+    a surface as likely alone as with the effects that together imitate it. Where the model leaves noise alone,
+    so that the surface is needed without the effect only, the odds that nothing unknown acts come to it.
+
+    Args:
+        held: the model with the effect.
+        without: the same without it, refitted.
+        beside: log evidence of a model beside a surface; None where there is none, which proves nothing.
+        noise: of the scaled residual.
+    """
+    with_it, without_it = (None, None) if without.lost else (beside(held), beside(without))
+    if with_it is None or without_it is None:
+        return 1.0
+    odds = with_it - without_it
+    if noise is not None and held.rmse <= SCORE.at_floor * noise < without.rmse:
+        odds += float(np.log((1.0 - PROBABILITY.unknown) / PROBABILITY.unknown))
+    odds += sum(log_odds(e) for e in held.fit_model.effects if e.id not in without.fit_model.ids)
+    return float(1.0 / (1.0 + np.exp(-np.clip(odds, -50.0, 50.0))))
 
 
 def known_beside(model: FittedModel, root: FittedModel, *, noise: float) -> float:

@@ -37,6 +37,8 @@ from mckibben.identification.predict.fit_model import FitModel, Free
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.residual.noise import allowing_for_errors, noise_of
 from mckibben.identification.residual.profiles import Profile, profiles, variables_of
+from mckibben.identification.residual.surface import log_evidence
+from mckibben.identification.thresholds import SCORE
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError
 from mckibben.simulation.outcome import Watch
@@ -71,6 +73,7 @@ class Prepared:
     not_tried: list[NotTried]
     on_candidate: Callable[[SingleAddition], None]
     singles: dict[str, SingleAddition] = field(default_factory=dict)
+    _evidences: dict[FittedModel, float | None] = field(default_factory=dict)
 
     @property
     def predictor(self) -> Predictor:
@@ -86,6 +89,12 @@ class Prepared:
     def where(self) -> list[Profile]:
         """The residual of the start model over each of them."""
         return profiles(self.start.residual, self.variables, self.predictor.folds[0])
+
+    def beside_a_surface(self, model: FittedModel) -> float | None:
+        """Log evidence of a model beside a free surface, see `log_evidence`."""
+        if model not in self._evidences:
+            self._evidences[model] = log_evidence(model, self.predictor)
+        return self._evidences[model]
 
     def tell(self, single: SingleAddition) -> None:
         """Pass on a candidate as soon as it is known."""
@@ -304,8 +313,11 @@ def named(prepared: Prepared, found: Searched, stated_noise: float | None) -> Na
     corrected = {item.effect for item in corrections}
     lean, exchangeable = likeliest(fitter, lean, added, level, root=root, never=corrected)
     unknown = level if found.judgement.structured else None
+    surface = found.judgement.surface
     likely = supported(
         fitter, lean, root, exchangeable, noise=level, unknown=unknown,
+        beside=prepared.beside_a_surface,
+        left=surface is None or surface.left > SCORE.at_floor * level,
         enough=not (found.judgement.structured or found.judgement.undecided),
     )  # fmt: skip
     if unknown is None and none_likely(likely.evidence):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from mckibben.identification.diagnose.corrections import Correction
@@ -11,6 +11,7 @@ from mckibben.identification.diagnose.probability import (
     Evidence,
     ModelWeights,
     known_beside,
+    likelier_than_any_formula,
     loss,
     model_weights,
 )
@@ -56,13 +57,17 @@ def supported(
     others: Sequence[Alternative],
     *,
     noise: float,
+    beside: Callable[[FittedModel], float | None] = lambda _: None,
     unknown: float | None = None,
+    left: bool = False,
     enough: bool = True,
 ) -> Supported:
-    """The effects that the start model lacks, and those that are less likely than `PROBABILITY.likely`.
+    """The effects that the start model lacks, without the least likely one after the other.
 
-    Where the model with them leaves noise alone, the likeliest is always called missing: something is. Beside
-    a rest that no effect explains, an effect is called missing that is likelier there than not.
+    Where the model with them leaves noise alone, the likeliest is called missing unless a free surface is
+    likelier: something is. Beside a rest that no effect explains, an effect is called missing that is
+    likelier there than not. The model keeps an unlikely effect that may act; what a free surface explains
+    better is no law that holds elsewhere, and goes.
 
     Args:
         fitter: of the search.
@@ -70,10 +75,12 @@ def supported(
         root: the start model, fitted.
         others: effects that could replace its effects.
         noise: of the scaled residual.
+        beside: log evidence of a model beside a free surface; None where the rows are too few for one.
         unknown: noise over which a rest is left that no effect explains; None without one.
+        left: whether that rest is more than a free surface explains, so that the evidence beside it is no
+            whole comparison.
         enough: whether what the model leaves is proved to be noise.
     """
-    known = 1.0 if unknown is None else known_beside(model, root, noise=unknown)
     predictor = fitter.predictor
     weights = model_weights(
         fitter.known.values(),
@@ -83,33 +90,47 @@ def supported(
         implausible=model.implausible,
     )
     rubbing = {effect.id for effect in (*model.fit_model.effects, *fitter.candidates) if effect.dry_friction}
-    evidence = []
-    for name in model.fit_model.ids:
-        if name not in root.fit_model.ids:
-            group = (name, *(other.effect for other in others if other.of == name))
-            without = fitter.dropping(model, name)
-            lost = loss(model, without, root, noise=noise)
-            laws = rubbing.difference(model.fit_model.ids) if name in rubbing else frozenset()
-            share = weights.share({*group, *laws}) * needed(model, without)
-            evidence.append(Evidence(name, group, share, lost, known))
-    ordered = sorted(evidence, key=lambda item: item.probability)
-    some = ordered[:-1] if enough else ordered
-    unlikely = [
-        item
-        for item in some
-        if item.probability < (PROBABILITY.likely if unknown is None else PROBABILITY.even)
-    ]
+    least_known = PROBABILITY.likely if unknown is None else PROBABILITY.even
+
+    def evidence_of(held: FittedModel, name: str) -> Evidence:
+        group = (name, *(other.effect for other in others if other.of == name))
+        without = fitter.dropping(held, name)
+        laws = rubbing.difference(held.fit_model.ids) if name in rubbing else frozenset()
+        share = weights.share({*group, *laws}) * needed(held, without)
+        known = likelier_than_any_formula(held, without, beside, noise=noise)
+        if left and unknown is not None:
+            known *= known_beside(held, root, noise=unknown)
+        return Evidence(name, group, share, loss(held, without, root, noise=noise), known)
+
+    firm, dropped = model, list[Evidence]()
+    while True:
+        names = [name for name in firm.fit_model.ids if name not in root.fit_model.ids]
+        evidence = [evidence_of(firm, name) for name in names]
+        least = min(evidence, key=lambda item: item.probability, default=None)
+        last = enough and len(evidence) == 1
+        if least is None or least.probability >= least_known or (last and least.known >= PROBABILITY.even):
+            break
+        dropped.append(least)
+        firm = fitter.dropping(firm, least.effect)
     # Where the data decide nothing, the model keeps nothing that is not called missing.
-    kept = len(unlikely) < len(evidence) or unknown is not None
-    firm, steps, corrections = model, [], []
-    for item in unlikely:
-        without = fitter.dropping(firm, item.effect)
-        if kept:
-            steps.insert(0, (item.effect, firm))
-        share = item.share * item.known
+    some = bool(evidence) or unknown is not None
+    kept = [item.effect for item in dropped if some and item.known >= PROBABILITY.even]
+
+    def holding(back: Sequence[str]) -> FittedModel:
+        held = model
+        for item in dropped:
+            held = held if item.effect in back else fitter.dropping(held, item.effect)
+        return held
+
+    steps = [(name, holding(kept[place:])) for place, name in reversed(list(enumerate(kept)))]
+    corrections, before = [], model
+    for item in dropped:
+        without = fitter.dropping(before, item.effect)
         corrections.append(
-            Correction(item.effect, without.rmse, firm.rmse, item.loss, kept=kept, share=share)
-        )
-        firm = without
-    firmly = tuple(item for item in evidence if item not in unlikely)
-    return Supported(firm, firmly, tuple(steps), tuple(corrections), weights)
+            Correction(
+                item.effect, without.rmse, before.rmse, item.loss, kept=item.effect in kept,
+                share=item.share * item.known,
+            )
+        )  # fmt: skip
+        before = without
+    return Supported(firm, tuple(evidence), tuple(steps), tuple(corrections), weights)

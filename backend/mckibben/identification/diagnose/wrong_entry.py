@@ -22,8 +22,11 @@ class WrongEntry:
         scale: factor between errors of the changed and of the stated data.
         effects: effects that are missing with it.
         instead_of: effects of the best model that it does without, none of their family in their place.
-        confidence: probability against the best model without it, from score and prior.
-        stands: whether it explains the data better by more than chance, so that it is asked about first.
+        confidence: probability against the best model without it.
+        odds: logarithm of its odds, from evidence and prior; the confidence is limited, because no model is
+            exact.
+        stands: whether it explains the data better by more than chance, or as well with fewer effects, so that it is asked
+            about first.
         kept: whether the user has ruled it out.
     """
 
@@ -37,6 +40,7 @@ class WrongEntry:
     effects: tuple[str, ...]
     instead_of: tuple[str, ...]
     confidence: float
+    odds: float
     stands: bool
     kept: bool = False
 
