@@ -134,7 +134,7 @@ def test_where_the_data_decide_nothing_no_effect_is_named_that_is_hardly_likely(
     assert asked(small, fitted(10.0), enough=False).evidence == ()
 
 
-def test_an_effect_that_a_free_surface_explains_as_well_is_neither_called_missing_nor_kept() -> None:
+def test_an_effect_that_a_free_surface_explains_as_well_is_not_called_missing() -> None:
     """Two effects reach the noise; beside a surface one of them adds nothing, the other one much."""
     both = fitted(1.0, "creep", "leak")
     visited = both, fitted(5.0, "creep"), fitted(9.0, "leak"), fitted(10.0)
@@ -145,7 +145,9 @@ def test_an_effect_that_a_free_surface_explains_as_well_is_neither_called_missin
     assert [item.effect for item in likely(creep=10.0, leak=10.0).evidence] == ["creep", "leak"]
     one = likely(creep=10.0, leak=-10.0)
     assert [item.effect for item in one.evidence] == ["creep"]
-    assert (one.firm.fit_model.ids, one.steps) == (("creep",), ())
-    assert [(item.effect, item.kept) for item in one.corrections] == [("leak", False)]
+    assert (one.firm.fit_model.ids, one.formulas) == (("creep",), {"leak"})
+    assert one.steps == (("leak", both),)
+    bare = one.without_corrections()
+    assert (bare.firm, bare.steps, [item.kept for item in bare.corrections]) == (one.firm, (), [False])
     none = likely(creep=-10.0, leak=-10.0)
     assert (none.firm.fit_model.ids, none.evidence, none.steps) == ((), (), ())

@@ -320,10 +320,14 @@ def named(prepared: Prepared, found: Searched, stated_noise: float | None) -> Na
         left=surface is None or surface.left > SCORE.at_floor * level,
         enough=not (found.judgement.structured or found.judgement.undecided),
     )  # fmt: skip
-    if unknown is None and none_likely(likely.evidence):
-        # Noise may look so, too, where what the start model leaves is not proved to be more.
-        of_root = judged(root, fitter.predictor, noise_of(fitter.predictor, root.residual, stated_noise)[0])
-        likely = likely if of_root.structured else likely.without_any(root)
+
+    def proved(model: FittedModel) -> bool:
+        return judged(model, fitter.predictor, noise_of(fitter.predictor, model.residual, stated_noise)[0]).structured
+
+    if unknown is None and likely.formulas and likely.steps and proved(likely.firm):
+        likely = likely.without_corrections()  # they would hide that no effect explains the rest
+    if unknown is None and none_likely(likely.evidence) and not proved(root):
+        likely = likely.without_any(root)  # noise may look so, too
     path = path_to(fitter, prepared.start, root, likely.firm, prepared.gauge_zero)
     added = tuple(step.added for step in path if step.added)
     refinements: list[tuple[str, FittedModel]] = []

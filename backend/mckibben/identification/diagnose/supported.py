@@ -32,6 +32,7 @@ class Supported:
         steps: the unlikely effects, the likeliest first, with the model that holds it and all before it.
         corrections: the same effects as corrections that are kept.
         weights: of the models that the search visited.
+        formulas: those of them that are less likely than some formula.
     """
 
     firm: FittedModel
@@ -39,6 +40,11 @@ class Supported:
     steps: tuple[tuple[str, FittedModel], ...]
     corrections: tuple[Correction, ...]
     weights: ModelWeights
+    formulas: frozenset[str] = frozenset()
+
+    def without_corrections(self) -> Supported:
+        """The same where the model holds only what is called missing."""
+        return replace(self, steps=(), corrections=tuple(replace(each, kept=False) for each in self.corrections))
 
     def without_any(self, root: FittedModel) -> Supported:
         """The same where none of its effects is called missing, nor held by the model."""
@@ -46,8 +52,8 @@ class Supported:
             Correction(item.effect, root.rmse, self.firm.rmse, item.loss, share=item.share * item.known)
             for item in self.evidence
         )
-        dropped = tuple(replace(each, kept=False) for each in self.corrections)
-        return replace(self, firm=root, evidence=(), steps=(), corrections=(*further, *dropped))
+        bare = self.without_corrections()
+        return replace(bare, firm=root, evidence=(), corrections=(*further, *bare.corrections))
 
 
 def supported(
@@ -66,8 +72,7 @@ def supported(
 
     Where the model with them leaves noise alone, the likeliest is called missing unless a free surface is
     likelier: something is. Beside a rest that no effect explains, an effect is called missing that is
-    likelier there than not. The model keeps an unlikely effect that may act; what a free surface explains
-    better is no law that holds elsewhere, and goes.
+    likelier there than not. The model keeps what is not called missing, because it predicts better with it.
 
     Args:
         fitter: of the search.
@@ -113,8 +118,7 @@ def supported(
         dropped.append(least)
         firm = fitter.dropping(firm, least.effect)
     # Where the data decide nothing, the model keeps nothing that is not called missing.
-    some = bool(evidence) or unknown is not None
-    kept = [item.effect for item in dropped if some and item.known >= PROBABILITY.even]
+    kept = [item.effect for item in dropped if evidence or unknown is not None]
 
     def holding(back: Sequence[str]) -> FittedModel:
         held = model
@@ -133,4 +137,5 @@ def supported(
             )
         )  # fmt: skip
         before = without
-    return Supported(firm, tuple(evidence), tuple(steps), tuple(corrections), weights)
+    formulas = frozenset(item.effect for item in dropped if item.known < PROBABILITY.even)
+    return Supported(firm, tuple(evidence), tuple(steps), tuple(corrections), weights, formulas)
