@@ -264,17 +264,16 @@ def test_the_applied_effect_has_a_reason_where_another_is_more_common(
 
 def test_a_correction_is_said_with_its_errors_and_probability() -> None:
     found = result("missing_effects", 40.0, 2.1, "creep")
-    leak = SimpleNamespace(effect="leak", before=2.1, after=1.9, probability=0.12, kept=True)
-    found.corrections = (leak,)
+    item = {"effect": "leak", "before": 2.1, "after": 1.9, "probability": 0.12}
+    found.corrections = (SimpleNamespace(**item, kept=True, formula=False),)
     assert corrections_sentence(found, TITLES) == (
-        "Not called missing, but kept in the model as a correction: Leak (from 2.10 to 1.90 N, probability "
-        "12 %). A slightly inexact form of the effects above would explain as much, but with it the model "
-        "predicts left-out groups better."
+        "Not called missing, but kept in the model, which predicts better with it: Leak (from 2.10 to "
+        "1.90 N, probability 12 %); a slightly inexact form of another effect would explain as much."
     )
-    found.corrections = (SimpleNamespace(effect="leak", before=2.1, after=1.9, probability=0.12, kept=False),)
+    found.corrections = (SimpleNamespace(**item, kept=False, formula=True),)
     assert corrections_sentence(found, TITLES) == (
-        "Neither called missing nor kept: Leak (from 2.10 to 1.90 N, probability 12 %). An inexact form of "
-        "the effects above would explain as much, and these data do not test what it would predict elsewhere."
+        "Neither called missing nor kept: Leak (from 2.10 to 1.90 N, probability 12 %); a formula of "
+        "the same variables that no catalogue has is likelier."
     )
     assert corrections_sentence(result("adequate", 2.0, 2.0), TITLES) == ""
 

@@ -9,16 +9,19 @@ import numpy as np
 import pytest
 from scipy.linalg import block_diag, toeplitz
 from scipy.signal import cont2discrete, lfilter
+from scipy.stats import multivariate_normal
 
 from mckibben.identification.fit.fitted_model import FittedModel, refitted
 from mckibben.identification.predict import predictor_of
 from mckibben.identification.predict.fit_model import FitModel, free_numbers
 from mckibben.identification.predict.predictor import PredictedChannel, Predictor
+from mckibben.identification.residual import surface
 from mckibben.identification.residual.correlated import Chain, tried_noises
 from mckibben.identification.residual.surface import (
     Block,
     lagged,
     likelihood_ratio,
+    log_evidence,
     most_likely,
     play,
     ratio_of,
@@ -49,9 +52,18 @@ FORCE = DESIGN @ np.array([300.0, -90.0, -900.0, 25.0, 0.0])
 
 
 class Rig(Plain):
-    """A plain subject whose rows have a length of a muscle of 1 m; of a run, with a known prediction."""
+    """A plain subject whose rows have a length of a muscle of 1 m; of a run, with a known prediction.
+
+    ``slope``: derivative of its force by the pressure.
+    """
 
     predicted_values: np.ndarray | None = None
+    slope: np.ndarray | None = None
+
+    def input_slope(self, fit_model: FitModel, channel: str) -> np.ndarray:
+        if channel != "pressure" or self.slope is None:
+            return super().input_slope(fit_model, channel)
+        return self.slope
 
     def rest_length(self, fit_model: FitModel) -> float:
         return 1.0
@@ -167,6 +179,61 @@ def test_the_same_digits_every_time() -> None:
     assert first.gain_low == second.gain_low
     assert first.left == second.left
     assert np.array_equal(first.values, second.values)
+
+
+#: What the pressure acts by, and a gauge with a kink: above 3.5 bar it reads half of each further bar.
+SLOPE = 3e-3 * (1.0 - CONTRACTION) ** 2 - 0.9e-3
+KINK = -0.5 * np.maximum(PRESSURE - 3.5e5, 0.0)
+
+
+def test_what_acts_through_a_reading_is_a_curve_of_that_reading() -> None:
+    """The kink of a gauge is simple as a curve times what the pressure acts by, and a surface it is not."""
+    node, rig = loops(SLOPE * KINK + noise("white", 17))
+    plain, without = surface_of(node, rig), log_evidence(node, rig)
+    rig.slope = SLOPE
+    found, evidence = surface_of(node, rig), log_evidence(node, rig)
+    assert plain is not None
+    assert found is not None
+    assert found.left == pytest.approx(NOISE, rel=0.08)
+    assert found.variables[0][0] == "pressure"
+    assert found.numbers < plain.numbers
+    assert evidence is not None
+    assert without is not None
+    assert evidence > without + 5.0
+
+
+def test_a_law_that_is_there_is_likelier_than_any_formula_and_one_that_is_not_is_not() -> None:
+    """Beside a surface: the law that was hidden gains, one that only imitates it does not."""
+    law = (CONTRACTION / HIGH) ** 2 * PRESSURE / 4e5
+    _, rig = loops(4.0 * NOISE * beside(DESIGN, law) + noise("white", 19))
+    other = np.maximum(CONTRACTION - 0.5 * HIGH, 0.0) * np.sqrt(PRESSURE)
+
+    def with_law(column: np.ndarray) -> float:
+        design = np.column_stack([DESIGN, column / np.sqrt(np.mean(column**2))])
+        found = log_evidence(linear_node(rig.measured, design, rig.folds), rig)
+        assert found is not None
+        return found
+
+    bare = log_evidence(linear_node(rig.measured, DESIGN, rig.folds), rig)
+    assert bare is not None
+    assert with_law(law) > bare + 3.0
+    assert with_law(law) > with_law(other) + 3.0
+
+
+def test_the_evidence_is_the_density_of_the_residual() -> None:
+    """Against the density of the whole normal distribution of the rows, with a constant from -5 to 5."""
+    _, rig = loops(2.0 * NOISE * beside(DESIGN, EFFECTS["a wave"]) + noise("white", 23))
+    node = linear_node(rig.measured - FORCE, DIRECTION[:, None], rig.folds, [(-5.0, 5.0)])
+    (channel,) = rig.channels
+    blocks, _ = surface._blocks_of(node, rig, channel, np.arange(ROWS))
+    columns = np.hstack([block.at_rows() for block in blocks])
+    basis = DIRECTION[:, None] / np.sqrt(ROWS)
+    outside = columns - basis @ (basis.T @ columns)
+    rest = node.residual - basis @ (basis.T @ node.residual)
+    found = most_likely(blocks, outside.T @ outside, outside.T @ rest, float(rest @ rest), ROWS - 1)
+    wide = np.hstack([columns * found.roots, 5.0 * DIRECTION[:, None]])
+    density = multivariate_normal(np.zeros(ROWS), wide @ wide.T + found.noise * np.eye(ROWS))
+    assert log_evidence(node, rig) == pytest.approx(float(density.logpdf(node.residual)), rel=1e-6)
 
 
 def test_nothing_is_said_of_few_rows_or_without_variables() -> None:

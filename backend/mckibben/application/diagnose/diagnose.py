@@ -68,6 +68,7 @@ from mckibben.identification.diagnose.words import (
     aside_of,
     aside_sentence,
     bounds_sentence,
+    correction_reason,
     corrections_sentence,
     left_out_sentence,
     repeats,
@@ -350,7 +351,9 @@ def _verdict(
         probabilities={name: item.probability for item in diagnosis.evidence for name in item.group},
         applied=applied_reasons(diagnosis, catalogue),
         corrections=[
-            CorrectionResult(item.effect, item.before, item.after, item.probability, item.kept)
+            CorrectionResult(
+                item.effect, item.before, item.after, item.probability, item.kept, correction_reason(item)
+            )
             for item in diagnosis.corrections
         ],
         superfluous=[item.effect for item in diagnosis.superfluous],

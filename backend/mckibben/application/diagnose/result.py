@@ -91,7 +91,7 @@ class CandidateResult:
 
 @result_class
 class CorrectionResult:
-    """An effect that lowers the error, but not by more than an inexact form of another effect explains."""
+    """An effect that lowers the error and is not called missing."""
 
     FIGURES: ClassVar = DIAGNOSIS.name
 
@@ -102,6 +102,8 @@ class CorrectionResult:
     probability: float
     kept: bool
     """Whether the model keeps it, because it predicts better with it."""
+    why: str
+    """Why it is not called missing, in words."""
 
 
 @result_class

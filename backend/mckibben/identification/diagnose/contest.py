@@ -7,11 +7,11 @@ the evidence Z of the model beside a free surface, which takes what is no law of
 
 .. math:: \ln\frac{P}{1-P} = \ln\pi + \sum_{e\in E}\ln o_e - \sum_{e\in D}\ln o_e + \ln Z_E - \ln Z_D
 
-with half the difference of the scores of `mckibben.identification.diagnose.score` in its place where the rows
-are too few for a surface. An entry stands, and is asked about first, where it explains the data to the noise
-as effects do, with fewer of them: a caliper is cheaper than an experiment. What the file says in words, or the
-catalogue of the muscle, stands against it unless the effects leave more than the noise. An entry that is less
-likely than any formula does not stand.
+with half the difference of the scores of `mckibben.identification.diagnose.score` in its place where the
+rows are too few for a surface. An entry stands, and is asked about first, where it explains the data to the
+noise as effects do, with fewer of them: a caliper is cheaper than an experiment. What the file says in words,
+or the catalogue of the muscle, stands against it unless the effects leave more than the noise. An entry that
+is less likely than some formula does not stand.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class _Trial:
         return None if found is None else found + len(model.residual) * float(np.log(self.scale))
 
     def likelier_wrong(self, of_root: Callable[[], float | None]) -> bool:
-        """Whether the entry is likelier wrong than right, by the start model beside a surface, if that tells."""
+        """Whether it is likelier wrong than right, by the start model beside a surface; True if untold."""
         changed, stated = self.evidence(self.root), of_root()
         return changed is None or stated is None or changed - stated + float(np.log(self.entry.prior)) > 0.0
 
@@ -127,7 +127,15 @@ def contest(
         for trial in trials
         if (
             entry := _evidence(
-                trial, first, root, best, partial(beside, best), rows=rows, noise=noise, here=here, at_floor=at_floor
+                trial,
+                first,
+                root,
+                best,
+                partial(beside, best),
+                rows=rows,
+                noise=noise,
+                here=here,
+                at_floor=at_floor,
             )
         )
         is not None
@@ -188,8 +196,8 @@ def _promising(
 
     ``near`` are those that come close to the best model without one; besides them the quantity that by itself
     explains more than any effect with as few numbers does. Where the best model is at the noise with one
-    effect, an entry has to do without any, and needs no search. Nor does one that is likelier right than wrong
-    with the start model alone, beside a free surface that does what the effects do.
+    effect, an entry has to do without any, and needs no search. Nor does one that is likelier right than
+    wrong with the start model alone, beside a free surface that does what the effects do.
     """
     if at_floor and len(added) < 2:
         return []

@@ -33,6 +33,7 @@ class Correction:
         kept: whether the model keeps it.
         share: of the visited models, by weight, that hold it or one that the data cannot tell from it; 1
             where its size alone speaks against it.
+        formula: whether some formula of the same variables is likelier than it.
     """
 
     effect: str
@@ -41,6 +42,7 @@ class Correction:
     loss: Loss
     kept: bool = False
     share: float = 1.0
+    formula: bool = False
 
     @property
     def probability(self) -> float:

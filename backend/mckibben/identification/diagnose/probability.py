@@ -176,9 +176,10 @@ def likelier_than_any_formula(
     r"""Probability that an effect is there, and not some formula of the same variables in its place.
 
     Both models stand beside a free surface, which takes what they leave:
-    :math:`\ln\frac{P}{1-P} = \ln o_e + \ln Z_1 - \ln Z_0`. What acts as no effect of the catalogue does leaves
-    a surface as likely alone as with the effects that together imitate it. Where the model leaves noise alone,
-    so that the surface is needed without the effect only, the odds that nothing unknown acts come to it.
+    :math:`\ln\frac{P}{1-P} = \ln o_e + \ln Z_1 - \ln Z_0`. What acts as no effect of the catalogue does
+    leaves a surface as likely alone as with the effects that together imitate it. Where the model leaves
+    noise alone, so that the surface is needed without the effect only, the odds that nothing unknown acts
+    come to it.
 
     Args:
         held: the model with the effect.

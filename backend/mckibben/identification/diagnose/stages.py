@@ -322,9 +322,16 @@ def named(prepared: Prepared, found: Searched, stated_noise: float | None) -> Na
     )  # fmt: skip
 
     def proved(model: FittedModel) -> bool:
-        return judged(model, fitter.predictor, noise_of(fitter.predictor, model.residual, stated_noise)[0]).structured
+        return judged(
+            model, fitter.predictor, noise_of(fitter.predictor, model.residual, stated_noise)[0]
+        ).structured
 
-    if unknown is None and likely.formulas and likely.steps and proved(likely.firm):
+    if (
+        unknown is None
+        and likely.steps
+        and any(each.formula for each in likely.corrections)
+        and proved(likely.firm)
+    ):
         likely = likely.without_corrections()  # they would hide that no effect explains the rest
     if unknown is None and none_likely(likely.evidence) and not proved(root):
         likely = likely.without_any(root)  # noise may look so, too

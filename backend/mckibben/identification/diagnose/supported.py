@@ -32,7 +32,6 @@ class Supported:
         steps: the unlikely effects, the likeliest first, with the model that holds it and all before it.
         corrections: the same effects as corrections that are kept.
         weights: of the models that the search visited.
-        formulas: those of them that are less likely than some formula.
     """
 
     firm: FittedModel
@@ -40,11 +39,12 @@ class Supported:
     steps: tuple[tuple[str, FittedModel], ...]
     corrections: tuple[Correction, ...]
     weights: ModelWeights
-    formulas: frozenset[str] = frozenset()
 
     def without_corrections(self) -> Supported:
         """The same where the model holds only what is called missing."""
-        return replace(self, steps=(), corrections=tuple(replace(each, kept=False) for each in self.corrections))
+        return replace(
+            self, steps=(), corrections=tuple(replace(each, kept=False) for each in self.corrections)
+        )
 
     def without_any(self, root: FittedModel) -> Supported:
         """The same where none of its effects is called missing, nor held by the model."""
@@ -133,9 +133,8 @@ def supported(
         corrections.append(
             Correction(
                 item.effect, without.rmse, before.rmse, item.loss, kept=item.effect in kept,
-                share=item.share * item.known,
+                share=item.share * item.known, formula=item.known < PROBABILITY.even,
             )
         )  # fmt: skip
         before = without
-    formulas = frozenset(item.effect for item in dropped if item.known < PROBABILITY.even)
-    return Supported(firm, tuple(evidence), tuple(steps), tuple(corrections), weights, formulas)
+    return Supported(firm, tuple(evidence), tuple(steps), tuple(corrections), weights)

@@ -218,6 +218,13 @@ def _against_the_likelier(result: Diagnosis, title: str, other: FittedModel) -> 
     return f"{title} is more common and fits as well; nothing in these data decides between them"
 
 
+def correction_reason(item: Correction) -> str:
+    """Why an effect that lowers the error is not called missing."""
+    if item.formula:
+        return "a formula of the same variables that no catalogue has is likelier"
+    return "a slightly inexact form of another effect would explain as much"
+
+
 def corrections_sentence(result: Diagnosis, titles: Mapping[str, str]) -> str:
     """Which effects lower the error and are not called missing; empty without any."""
     unit, scale = _unit_of(result)
@@ -229,27 +236,15 @@ def corrections_sentence(result: Diagnosis, titles: Mapping[str, str]) -> str:
             for item in items
         ])  # fmt: skip
 
-    kept = [item for item in result.corrections if item.kept]
-    others = [item for item in result.corrections if not item.kept and item.after < item.before]
-    if not result.added:
-        which = listed(kept)
-        return (
-            f"Not called missing, but kept in the model, which predicts better with it: {which}."
-            if kept
-            else ""
-        )
     texts = []
-    if kept:
-        texts.append(
-            f"Not called missing, but kept in the model as a correction: {listed(kept)}. A slightly inexact "
-            "form of the effects above would explain as much, but with it the model predicts left-out groups "
-            "better."
-        )
-    if others:
-        texts.append(
-            f"Neither called missing nor kept: {listed(others)}. An inexact form of the effects above would "
-            "explain as much, and these data do not test what it would predict elsewhere."
-        )
+    for kept, what in ((True, "Not called missing, but kept in the model, which predicts better with it"),
+                       (False, "Neither called missing nor kept")):  # fmt: skip
+        items = [item for item in result.corrections if item.kept is kept]
+        if not kept:
+            items = [item for item in items if item.after < item.before and result.added]
+        for reason in dict.fromkeys(map(correction_reason, items)):
+            some = [item for item in items if correction_reason(item) == reason]
+            texts.append(f"{what}: {listed(some)}; {reason}.")
     return " ".join(texts)
 
 

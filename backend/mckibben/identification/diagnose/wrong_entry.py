@@ -25,8 +25,8 @@ class WrongEntry:
         confidence: probability against the best model without it.
         odds: logarithm of its odds, from evidence and prior; the confidence is limited, because no model is
             exact.
-        stands: whether it explains the data better by more than chance, or as well with fewer effects, so that it is asked
-            about first.
+        stands: whether it explains the data better by more than chance, or as well with fewer effects, so
+            that it is asked about first.
         kept: whether the user has ruled it out.
     """
 

@@ -43,8 +43,8 @@ _RESOLVED = 3.0  # largest frequency times the shortest length: S falls to 1 % o
 _LONGEST = 6.0  # length beyond which a process is a straight line over the rows
 _LEAST, _GREATEST = np.exp(-8.0), np.exp(3.0)  # amplitude over the rms of the residual
 _LEAST_NOISE, _GREATEST_NOISE = 1e-3, 2.0  # the same of the noise
-# Where the search for amplitudes and noise begins, over the rms: a rough surface in much noise, and a fine one.
-# Of 94 residuals one start alone ended in a poor place, up to 1650 nats off, in 17; both in 7, up to 15 off.
+# Where the search for amplitudes and noise begins, over the rms. Of 94 residuals the first of them alone
+# ended in a poor place, up to 1650 nats off, in 16; both in 7, up to 15 off.
 _STARTS, _START_LENGTH = ((0.1, 0.5), (0.3, 0.15)), 0.7
 _FLOOR = 1e-14  # of the squared amplitude; below, a column has no weight
 _STEPS = 60  # of the search
@@ -283,7 +283,8 @@ class _Likelihood:
             usual = [np.concatenate([np.maximum(before[:blocks], np.log(0.1)), before[blocks:]])]
         else:
             usual = [
-                np.log([amplitude] * blocks + [_START_LENGTH] * lengths + [noise]) for amplitude, noise in _STARTS
+                np.log([amplitude] * blocks + [_START_LENGTH] * lengths + [noise])
+                for amplitude, noise in _STARTS
             ]
         return [np.clip(start, self.low, self.high) for start in usual]
 
@@ -897,7 +898,9 @@ def within_others(values: np.ndarray, others: np.ndarray) -> np.ndarray:
 
 def _same_ways(blocks: Sequence[Block], out: np.ndarray) -> np.ndarray:
     """Mask of the rows whose sign of motion other rows have as well."""
-    sign = next((block.factor for block in blocks if "direction" in block.over and block.factor is not None), None)
+    sign = next(
+        (block.factor for block in blocks if "direction" in block.over and block.factor is not None), None
+    )
     return np.ones(len(out), bool) if sign is None else np.isin(sign, np.unique(sign[~out]))
 
 

@@ -45,10 +45,6 @@ export const fallText = (from, to) => `${asText(from, false)} → ${asText(to)}`
 /** What is to be done where the values of the model do not fit best. */
 export const REFIT = "Refit the values of the model";
 
-const CORRECTION =
-  "Not called missing: a slightly inexact form of the effects above would explain as much. " +
-  "The model keeps it because it predicts left-out groups better with it.";
-
 /** How likely an effect is missing. @param {number} probability 0…1 */
 export const likelyText = (probability) => `${probabilityText(probability)} likely`;
 
@@ -230,7 +226,6 @@ export function entryRow(entry, index, noise, was = null) {
       insideText(inside),
     ),
     entry.reason ? h("p", { class: "why" }, sentence(entry.reason)) : null,
-    entry.correction ? h("p", { class: "why" }, CORRECTION) : null,
     group.length > 1
       ? h(
         "div",

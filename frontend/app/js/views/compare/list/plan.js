@@ -55,8 +55,9 @@ export const entries = computed(() => {
     const own = group.includes(chosen) ? chosen : added;
     const before = i ? steps[i - 1].rmse : result.baseline.rmse;
     const candidate = candidateOf(own);
+    const correction = verdict.corrections.find((c) => c.effect === added);
     const likely = newer.probabilities?.[added] ??
-      verdict.corrections.find((c) => c.effect === added)?.probability ??
+      correction?.probability ??
       /** @type {{probability?: number | null}} */ (candidateOf(added) ?? {}).probability ?? null;
     return [{
       effect: added,
@@ -67,7 +68,9 @@ export const entries = computed(() => {
       to: step.rmse,
       holdout: step.holdout_rmse,
       probability: likely,
-      reason: newer.applied?.[added] ?? "",
+      reason: step.correction && correction
+        ? `Not called missing: ${correction.why}. The model predicts left-out groups better with it`
+        : newer.applied?.[added] ?? "",
       tells: tellsOf(verdict, group),
       step,
       candidate,
