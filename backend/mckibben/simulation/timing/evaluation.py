@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, reduce
 from math import ceil
 from typing import ClassVar, Literal
 
@@ -21,7 +21,7 @@ from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.transient import Run, constants_of, dead_times
 from mckibben.simulation.integrate.engine import SLOWEST_REBOUND
 from mckibben.simulation.timing.table import Phase, TimingTable, timing
-from mckibben.simulation.timing.trace import Impact, Trace
+from mckibben.simulation.timing.trace import REAL, Impact, Trace
 from mckibben.simulation.timing.tracking import Followed, Tracking, tracking
 
 Array = np.ndarray
@@ -109,9 +109,12 @@ def trace_of(run: Run) -> Trace | None:
     """
     out, lever, drive = run.outputs, run.drive.load.lever_ratio, run.drive
     suffixes = ("", COUNTER) if drive.pair else ("",)
-
     from_states = drive.polytropic_exponent is not None and "gas_mass" not in run.states
     exchanged = [_exchanged(run, suffix, from_states=from_states) for suffix in suffixes]
+
+    def total(columns: Iterable[Array]) -> Array:
+        return reduce(np.add, columns)
+
     columns = {
         "time": run.time,
         "position": run.states["stroke"] / lever,
@@ -120,28 +123,33 @@ def trace_of(run: Run) -> Trace | None:
         "pressure": run.pressure,
         "force": out["force"],
         "mass_flow": out["mass_flow"],
-        "contact": out["contact"] != 0.0,
-        "choked": _choked_side(run),
-        "supply_mass_flow": np.sum([out[f"supply_flow{suffix}"] for suffix in suffixes], axis=0),
-        "exhaust_mass_flow": np.sum([out[f"exhaust_flow{suffix}"] for suffix in suffixes], axis=0),
-        "supplied": np.sum([supplied for supplied, _ in exchanged], axis=0),
-        "vented": np.sum([vented for _, vented in exchanged], axis=0),
-        "tube_charge": np.sum([_tube_charge(run, suffix) for suffix in suffixes], axis=0),
+        "supply_mass_flow": total(out[f"supply_flow{suffix}"] for suffix in suffixes),
+        "exhaust_mass_flow": total(out[f"exhaust_flow{suffix}"] for suffix in suffixes),
+        "supplied": total(supplied for supplied, _ in exchanged),
+        "vented": total(vented for _, vented in exchanged),
+        "tube_charge": total(_tube_charge(run, suffix) for suffix in suffixes),
     }
-    usable = np.all([np.isfinite(column) for column in columns.values()], axis=0)
-    count = int(np.argmin(usable)) if not usable.all() else len(usable)
+    table = np.array([columns[name] for name in REAL])
+    usable = np.isfinite(table).all(axis=0)
+    count = len(usable) if usable.all() else int(np.argmin(usable))
     if count < 2:
         return None
-    columns = {name: column[:count] for name, column in columns.items()}
+    table, contact, choked = table[:, :count], (out["contact"] != 0.0)[:count], _choked_side(run)[:count]
     moving = [event for event in run.events if event.impact or abs(event.speed) > SLOWEST_REBOUND]
-    events = [event for event in moving if event.time < columns["time"][-1]]
+    events = [event for event in moving if event.time < table[0, -1]]
     impacts = tuple(
         Impact(event.time, stop_of(drive, event) / lever, event.speed / lever)
         for event in events
         if event.impact
     )
-    columns = _with_events(columns, events, run)
-    return Trace(**columns, impacts=impacts, from_states=from_states)
+    table, contact, choked = _with_events(table, contact, choked, events, run)
+    return Trace(
+        **dict(zip(REAL, table, strict=True)),
+        contact=contact,
+        choked=choked,
+        impacts=impacts,
+        from_states=from_states,
+    )
 
 
 def stop_of(drive: Drive, event: Event) -> float:
@@ -177,19 +185,23 @@ def _tube_charge(run: Run, suffix: str) -> Array:
     return pressure * tube.volume / (_R * run.drive.temperature)
 
 
-def _with_events(columns: dict[str, Array], events: list[Event], run: Run) -> dict[str, Array]:
+def _with_events(
+    table: Array, contact: Array, choked: Array, events: list[Event], run: Run
+) -> tuple[Array, Array, Array]:
     """The columns with rows just before and just after each event."""
     instants = np.array([event.time for event in events])
     new = np.concatenate([[True], np.diff(instants) > 0.0]) if len(events) else np.zeros(0, bool)
-    inside = new & (instants > columns["time"][0])
+    inside = new & (instants > table[0, 0])
     events, instants = [event for event, keep in zip(events, inside, strict=True) if keep], instants[inside]
     if not events:
-        return columns
+        return table, contact, choked
     # A row of the instant of an event is that before it: the new rows replace it.
-    at = np.searchsorted(columns["time"], instants)
-    if (there := columns["time"][at] == instants).any():
-        columns = {name: np.delete(column, at[there]) for name, column in columns.items()}
-    time, lever = columns["time"], run.drive.load.lever_ratio
+    at = np.searchsorted(table[0], instants)
+    if (there := table[0, at] == instants).any():
+        kept = np.delete(np.arange(table.shape[1]), at[there])
+        table, contact, choked = table[:, kept], contact[kept], choked[kept]
+    columns, lever = dict(zip(REAL, table, strict=True)), run.drive.load.lever_ratio
+    time = columns["time"]
     after = np.searchsorted(time, instants)
     before = after - 1
     passed = instants - time[before]
@@ -209,17 +221,18 @@ def _with_events(columns: dict[str, Array], events: list[Event], run: Run) -> di
         "position": (here, here),
         "velocity": (speed, left),
         "acceleration": (pulling, columns["acceleration"][after]),
-        "contact": (np.zeros(len(events), bool), columns["contact"][after]),
-        "choked": (columns["choked"][before],) * 2,
     }
     rows = np.insert(np.arange(len(time)), np.repeat(after, 2), np.repeat(after, 2))
     first = after + 2 * np.arange(len(after))  # the new rows among all
-    result = {}
-    for name, column in columns.items():
-        between = column[before] * (1.0 - share) + column[after] * share
-        result[name] = column[rows]
-        result[name][first], result[name][first + 1] = known.get(name, (between, between))
-    return result
+    between, choked_before = table[:, before] * (1.0 - share) + table[:, after] * share, choked[before]
+    table, contact, choked = table[:, rows], contact[rows], choked[rows]
+    table[:, first] = table[:, first + 1] = between
+    for name, (row_before, row_after) in known.items():
+        number = REAL.index(name)
+        table[number, first], table[number, first + 1] = row_before, row_after
+    contact[first] = False
+    choked[first] = choked[first + 1] = choked_before
+    return table, contact, choked
 
 
 def stops_of(drive: Drive) -> Interval:
