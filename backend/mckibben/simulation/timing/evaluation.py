@@ -143,13 +143,7 @@ def trace_of(run: Run) -> Trace | None:
         if event.impact
     )
     table, contact, choked = _with_events(table, contact, choked, events, run)
-    return Trace(
-        **dict(zip(REAL, table, strict=True)),
-        contact=contact,
-        choked=choked,
-        impacts=impacts,
-        from_states=from_states,
-    )
+    return Trace.sound(table, contact, choked, impacts=impacts, from_states=from_states)
 
 
 def stop_of(drive: Drive, event: Event) -> float:
@@ -253,7 +247,8 @@ def phases_of(drive: Drive) -> tuple[Phase | None, Phase | None]:
     """The first fill and the vent after it; of a controlled run the reference's first rise and fall."""
     if drive.reference is None:
         command = drive.command.segments(drive.duration)
-        return _phase_of(phases(command)[0], command), _phase_of(phases(command)[1], command)
+        fill, vent = (_phase_of(interval, command) for interval in phases(command))
+        return fill, vent
     reference = drive.reference.segments(drive.duration)
     before = np.r_[drive.reference.before, reference.end_values[:-1]]
     jump = reference.start_values - before

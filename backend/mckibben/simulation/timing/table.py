@@ -21,13 +21,13 @@ that is not kept, or a motion the other way, *never arrives*; else it *drifts*: 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from typing import ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mckibben.facts.result import result_class
+from mckibben.facts.result import Deferring, once, result_class
 from mckibben.facts.timing import (
     MOTION_FIGURES,
     NO_STEP,
@@ -121,7 +121,7 @@ class Phase:
 
 
 @result_class
-class TimingTable:
+class TimingTable(Deferring):
     """Figures of the first fill and of the vent after it."""
 
     extend: PhaseFigures = field(default_factory=PhaseFigures)
@@ -157,28 +157,39 @@ def timing(
         delays: dead times of the valve for opening and closing [s]; so long the flow of the phase before goes
             on, and counts there.
     """
-    notes: dict[str, str] = {}
-    table: dict[str, PhaseFigures] = {}
-    for name, phase, sign in (("extend", fill, 1.0), ("retract", vent, -1.0)):
-        window = None if phase is None else trace.window(*phase.interval)
-        if phase is None or window is None:
-            why = "the command has no such phase" if phase is None else "the run ended before this phase"
-            table[name], reasons = PhaseFigures(), dict.fromkeys(TIMING, why)
-        else:
-            motion = _Motion(window, sign, phase.target, band)
-            figures, reasons = motion.figures(mass)
-            late, later = delays if sign > 0.0 else delays[::-1]
-            flows = window.time[0] + late, window.time[-1] + later
-            for part, why in (motion.pressure(), air(trace, flows, sign)):
-                figures |= part
-                reasons |= why
-            state, said = motion.state() if phase.stepped else (None, None)
-            if not phase.stepped:
-                figures |= dict.fromkeys(STEP_FIGURES)
-                reasons |= dict.fromkeys(STEP_FIGURES, NO_STEP)
-            table[name] = PhaseFigures(**figures, state=state, motion=said)
-        notes |= {f"{name}.{figure}": reason for figure, reason in reasons.items()}
-    return TimingTable(table["extend"], table["retract"], notes)
+    motions = {
+        name: once(partial(_of_phase, trace, phase, sign, mass, band, delays))
+        for name, phase, sign in (("extend", fill, 1.0), ("retract", vent, -1.0))
+    }
+    return TimingTable.deferred(
+        extend=lambda: motions["extend"]()[0],
+        retract=lambda: motions["retract"]()[0],
+        notes=lambda: {
+            f"{name}.{figure}": why for name, found in motions.items() for figure, why in found()[1].items()
+        },
+    )
+
+
+def _of_phase(
+    trace: Trace, phase: Phase | None, sign: float, mass: float | None, band: float, delays: Interval
+) -> tuple[PhaseFigures, dict[str, str]]:
+    """The figures of a phase whose motion has a sign, and remarks on them."""
+    window = None if phase is None else trace.window(*phase.interval)
+    if phase is None or window is None:
+        why = "the command has no such phase" if phase is None else "the run ended before this phase"
+        return PhaseFigures(), dict.fromkeys(TIMING, why)
+    motion = _Motion(window, sign, phase.target, band)
+    figures, reasons = motion.figures(mass)
+    late, later = delays if sign > 0.0 else delays[::-1]
+    flows = window.time[0] + late, window.time[-1] + later
+    for part, why in (motion.pressure(), air(trace, flows, sign)):
+        figures |= part
+        reasons |= why
+    state, said = motion.state() if phase.stepped else (None, None)
+    if not phase.stepped:
+        figures |= dict.fromkeys(STEP_FIGURES)
+        reasons |= dict.fromkeys(STEP_FIGURES, NO_STEP)
+    return PhaseFigures(**figures, state=state, motion=said), reasons
 
 
 Figures = tuple[dict[str, float | None], dict[str, str]]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from copy import copy
 from dataclasses import dataclass, field, fields
 
 import numpy as np
@@ -88,6 +87,18 @@ class Trace:
             raise ValueError("time: two or more ascending values are needed")
         self.__dict__.update(_of_table(np.array([getattr(self, name) for name in REAL])))
 
+    @classmethod
+    def sound(
+        cls, table: Array, contact: NDArray[np.bool_], choked: NDArray[np.int_], *,
+        impacts: tuple[Impact, ...], from_states: bool,
+    ) -> Trace:  # fmt: skip
+        """The trace of a table that is known to be finite and to ascend, which is not checked again."""
+        made = cls.__new__(cls)
+        made.__dict__.update(
+            _of_table(table), contact=contact, choked=choked, impacts=impacts, from_states=from_states
+        )
+        return made
+
     def window(self, start: float, end: float) -> Trace | None:
         """The rows between two instants, with interpolated first and last rows; None when there are none."""
         start, end = max(start, float(self.time[0])), min(end, float(self.time[-1]))
@@ -102,15 +113,11 @@ class Trace:
         table[:, 1:-1] = self.table[:, first:last]
         table[:, [0, -1]] = self.table[:, before] * (1.0 - share) + self.table[:, before + 1] * share
         table[0, [0, -1]] = ends
-        rows = np.r_[at[0], first:last, at[1]]
-        window = copy(self)  # rows of a sound trace are sound
-        window.__dict__.update(
-            _of_table(table),
-            contact=self.contact[rows],
-            choked=self.choked[rows],
-            impacts=tuple(impact for impact in self.impacts if start < impact.time < end),
+        rows = np.concatenate([at[:1], np.arange(first, last), at[1:]])
+        impacts = tuple(impact for impact in self.impacts if start < impact.time < end)
+        return Trace.sound(
+            table, self.contact[rows], self.choked[rows], impacts=impacts, from_states=self.from_states
         )
-        return window
 
 
 def _of_table(table: Array) -> dict[str, Array]:
