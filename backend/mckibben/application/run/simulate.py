@@ -453,7 +453,7 @@ def _flags(annotated: AnnotatedDrive, run: Run, contraction: Array) -> list[Noti
         *stretch_notices(annotated.start, float(np.nanmin(contraction, initial=0.0)), "stops"),
         *temperature_notices(annotated.start, drive.temperature, "gas.temperature"),
         *valve_notices(annotated),
-        *use_notices(annotated.start.fit, use_of_run(run)),
+        *(use_notices(fit, use_of_run(run)) if (fit := annotated.start.fit) is not None else ()),
     ]
 
 
