@@ -11,8 +11,8 @@ does not conserve mass, the air is counted from pressure and volume at ambient t
 A figure that does not exist is None; ``notes`` says why under ``extend.<figure>``. Figures of a step exist
 where the command, or the reference of a controlled drive, is constant throughout the phase.
 
-The motion of a phase of a step has a state, found in this order: it *never leaves*; it *swings* (does not
-settle, with two even periods in its second half); it *returns* (ends within a tenth of its largest travel
+The motion of a phase of a step has a state, found in this order: it *never leaves*; it *swings* (two even
+periods in its second half, or since it was first there, by more than half of the band to either side); it *returns* (ends within a tenth of its largest travel
 from where it began); it *arrives and holds* (settles within the band of the stop that it hits, or hits none
 and settles); it *arrives and bounces* (hits the stop ahead, and settles away from it); a demanded stroke
 that is not kept, or a motion the other way, *never arrives*; else it *drifts*: it still moves.
@@ -49,9 +49,10 @@ MotionState = Literal[
 # Figures that need an arrival.
 _TIMED = ("positioning_time", "rise_time", "delay_time", "settling_time", "average_speed")
 _SWING = ("swing_frequency", "swing_amplitude")
-# Why there is no settling time; with an impact the load has arrived all the same.
+# Why there is no settling time; with an impact a load that still moves has arrived all the same.
 _SETTLES = TIMING["settling_time"].exists_when.otherwise
-_SWINGS = "arrives, but swings until the end of the phase"
+_SWINGS = "the load swings until the end of the phase"
+_MOVES = "arrives, but still moves at the end of the phase"
 
 #: Travel [m] and pressure change [Pa] below these count as none.
 SMALLEST_STROKE, SMALLEST_STEP = 1e-5, 100.0
@@ -223,18 +224,30 @@ class _Motion:
 
     @cached_property
     def swing(self) -> Swing | None:
-        """The swing in the second half of a phase that does not settle; of half of the band at least."""
-        if self.settled is not None:
+        """The swing of the second half of a phase, or since the load was first there, of half of the band.
+
+        Where a stroke is demanded, a load that stays within the band around it does not swing.
+        """
+        if self.stays or (self.demanded and self._within is not None):
             return None
-        half = int(np.searchsorted(self.time, 0.5 * self.last))
-        found = None if self.contact[half:].all() else swing_of(self.time[half:], self.travel[half:])
-        least = 0.5 * self.band * abs(self.stroke)
-        return found if found is not None and found.amplitude > least else None
+        least, impact = 0.5 * self.band * abs(self.stroke), self.impact
+        there = (self._first(0.9 * self.stroke) or 0.0) if impact is None else self._since(impact)
+        for since in (0.5 * self.last, min(there, 0.5 * self.last)):
+            rows = slice(int(np.searchsorted(self.time, since)), None)
+            found = None if self.contact[rows].all() else swing_of(self.time[rows], self.travel[rows])
+            if found is not None:
+                return found if found.amplitude > least else None
+        return None
 
     @cached_property
-    def settled(self) -> float | None:
-        """Since when the travel stays within the band."""
+    def _within(self) -> float | None:
+        """Since when the travel stays within the band around the stroke."""
         return None if self.stays else self._settled(self.travel, self.stroke, self.band * abs(self.stroke))
+
+    @property
+    def settled(self) -> float | None:
+        """The same of a load that does not swing: of one that does, the last instant decides about it."""
+        return None if self.swing is not None else self._within
 
     def state(self) -> tuple[MotionState, str]:
         """How the motion ends, and a sentence."""
@@ -304,10 +317,13 @@ class _Motion:
             why = unsettled = _SETTLES
             on_stop = (
                 stop is not None
+                and swing is None
                 and stop - self.reached <= self.band * stop
                 and not (self.demanded and abs(stop - stroke) > self.band * stroke)
             )
-            if self.demanded:
+            if swing is not None:
+                why = unsettled = _SWINGS
+            elif self.demanded:
                 best = 1e3 * float(self.travel.max())
                 why = unsettled = f"{best:.3g} mm of the {1e3 * stroke:.3g} mm are reached, or not kept"
             elif stop is not None and not on_stop:
@@ -317,7 +333,7 @@ class _Motion:
             if impact is not None and on_stop and arrival is not None:
                 arrival, travelled = self._since(impact), self._travel_to(impact)
                 settled = None if settled is None else max(settled, arrival)
-                unsettled = why if self.demanded else _SWINGS
+                unsettled = why if self.demanded else _MOVES
             figures |= {"settling_time": settled, "positioning_time": arrival}
             if arrival:
                 figures["average_speed"] = travelled / arrival
