@@ -247,7 +247,10 @@ def phases_of(drive: Drive) -> tuple[Phase | None, Phase | None]:
     """The first fill and the vent after it; of a controlled run the reference's first rise and fall."""
     if drive.reference is None:
         command = drive.command.segments(drive.duration)
-        fill, vent = (_phase_of(interval, command) for interval in phases(command))
+        fill, vent = (
+            _phase_of(interval, command)
+            for interval in _begun(phases(command), command, before=drive.command.before)
+        )
         return fill, vent
     reference = drive.reference.segments(drive.duration)
     before = np.r_[drive.reference.before, reference.end_values[:-1]]
@@ -255,6 +258,24 @@ def phases_of(drive: Drive) -> tuple[Phase | None, Phase | None]:
     trend = np.sign(np.where(jump != 0.0, jump, reference.slopes))
     found = phases(Segments(reference.times, _last_trend(trend), np.zeros(len(trend))))
     fill, vent = (_phase_of(interval, reference, reference) for interval in found)
+    return fill, vent
+
+
+def _begun(
+    found: tuple[Interval | None, Interval | None], command: Segments, *, before: float
+) -> tuple[Interval | None, Interval | None]:
+    """The phases without what goes on since before the run: a muscle that is held at a level is not filled."""
+    if command.start_values[0] != before or command.slopes[0] != 0.0:
+        return found
+    changed = float(command.times[1])
+    fill, vent = (None if each is None or each[1] <= changed else each for each in found)
+    way = 0.0  # in which the command goes on
+    if len(command.slopes) > 1:
+        way = float(command.start_values[1] - command.start_values[0] or command.slopes[1])
+    if fill is not None and fill[0] < changed:
+        fill = (changed, fill[1]) if way > 0.0 else None
+    if vent is not None and vent[0] < changed:
+        vent = (changed, vent[1]) if way < 0.0 else None
     return fill, vent
 
 
