@@ -91,11 +91,13 @@ def test_a_muscle_that_is_held_at_its_level_is_not_filled() -> None:
 def test_a_step_from_a_level_to_a_higher_one_is_a_fill() -> None:
     """A regulator goes from 1 to 4 bar at 1 s: the lift begins there, not with the run."""
     found = mk.Drive(
-        muscle="DMSP-20:300mm", valve="VPPM-6", load={"mass": "20 kg"}, duration="4 s", start_pressure="1 bar",
+        muscle="DMSP-20:300mm", valve="VPPM-6", load="20 kg", duration="4 s", start_pressure="1 bar",
         command={"shape": "step", "initial": 1 / 6, "at": "1 s", "level": 4 / 6},
     ).run()  # fmt: skip
     fill = found.timing.extend
     half = 0.5 * (found.position[0] + found.position[-1])
     passed = float(np.interp(half, found.position[:1000], found.time[:1000]))
-    assert fill.stroke == pytest.approx(found.position[-1] - np.interp(1.0, found.time, found.position), rel=1e-3)
+    assert fill.stroke == pytest.approx(
+        found.position[-1] - np.interp(1.0, found.time, found.position), rel=1e-3
+    )
     assert fill.delay_time == pytest.approx(passed - 1.0, abs=2e-3)

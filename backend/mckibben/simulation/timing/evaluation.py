@@ -264,7 +264,7 @@ def phases_of(drive: Drive) -> tuple[Phase | None, Phase | None]:
 def _begun(
     found: tuple[Interval | None, Interval | None], command: Segments, *, before: float
 ) -> tuple[Interval | None, Interval | None]:
-    """The phases without what goes on since before the run: a muscle that is held at a level is not filled."""
+    """The phases without what goes on since before the run: a muscle held at a level is not filled."""
     if command.start_values[0] != before or command.slopes[0] != 0.0:
         return found
     changed = float(command.times[1])

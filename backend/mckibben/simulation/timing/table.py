@@ -12,10 +12,11 @@ A figure that does not exist is None; ``notes`` says why under ``extend.<figure>
 where the command, or the reference of a controlled drive, is constant throughout the phase.
 
 The motion of a phase of a step has a state, found in this order: it *never leaves*; it *swings* (two even
-periods in its second half, or since it was first there, by more than half of the band to either side); it *returns* (ends within a tenth of its largest travel
-from where it began); it *arrives and holds* (settles within the band of the stop that it hits, or hits none
-and settles); it *arrives and bounces* (hits the stop ahead, and settles away from it); a demanded stroke
-that is not kept, or a motion the other way, *never arrives*; else it *drifts*: it still moves.
+periods in its second half, or since it was first there, by more than half of the band to either side); it
+*returns* (ends within a tenth of its largest travel from where it began); it *arrives and holds* (settles
+within the band of the stop that it hits, or hits none and settles); it *arrives and bounces* (hits the stop
+ahead, and settles away from it); a demanded stroke that is not kept, or a motion the other way, *never
+arrives*; else it *drifts*: it still moves.
 """
 
 from __future__ import annotations
