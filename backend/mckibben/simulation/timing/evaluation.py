@@ -320,6 +320,7 @@ def tracking_of(run: Run, trace: Trace | None) -> Tracking | None:
             command=np.asarray(run.command.value(trace.time)),
             limits=(controller.output_min, controller.output_max),
             contact=trace.contact,
+            stops=stops_of(run.drive),
             pressure=trace.pressure,
             full_pressure=full_pressure_of(run.drive),
             pulled_back=run.drive.pair,
