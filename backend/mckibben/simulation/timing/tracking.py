@@ -4,8 +4,9 @@ A step is a jump of the reference to a constant level, or a constant reference a
 begins. It *settles* if the position stays within 2 % of the step around the level from some time before the
 last tenth of its time on. Else it *swings* (two even periods in the second half of its time; *unstable*
 where they grow), or the load rests: on an end stop beyond which the level is (*on the stop*), *beside* the
-level, with the command at its limit or the muscle at full pressure (*saturates*), or beyond the level with a muscle that is vented and
-cannot push it back (*cannot return*); or it still *moves*. A run under steps is as good as its worst one.
+level, with the command at its limit or the muscle at full pressure (*saturates*), or beyond the level with a
+muscle that is vented and cannot push it back (*cannot return*); or it still *moves*. A run under steps is as
+good as its worst one.
 Where the reference moves all the time the run *swings* about it (*unstable* where that grows) if the error
 of its second half has even periods, at least twice as many as the reference turns there and back, and more
 than 1 % of its range; it *tracks* if the RMS error is at most 5 % of the range of the reference, *saturates*
