@@ -47,6 +47,7 @@ _VENTED = 0.01  # of the largest pressure
 _GROWS = 1.02  # of the amplitude from period to period
 _OWN = 2.0  # frequency of a swing about a moving reference, in that of the reference
 _SMALLEST = 1e-5  # m; a smaller step is none
+_SHORTEST_LAG = 1e-4  # s; a shorter one is not worth a word
 _SEEN = 5e-4  # least swing, as a share of the step; the settling band is 40 times as wide
 
 
@@ -223,7 +224,7 @@ def _of_motion(followed: Followed, rms: float, largest: float, lag: float | None
         f"{words} the reference within {100.0 * _TRACKS:g} % of its range: RMS error {rms * 1e3:.3g} mm of "
         f"{size * 1e3:.4g} mm ({100.0 * rms / size:.3g} %), at most {largest * 1e3:.3g} mm"
     )
-    if lag is not None:
+    if lag is not None and lag >= _SHORTEST_LAG:
         text += f", {lag * 1e3:.4g} ms late"
     if state == "saturates":
         text += f"; the command is at its limits for {100.0 * limited:.3g} % of the time"
