@@ -135,6 +135,20 @@ def test_a_run_that_is_asked_nothing_bears_no_tick(page: Page) -> None:
     expect(verdict).to_contain_text("Nothing is judged")
 
 
+def test_the_period_of_a_sine_is_shown_as_its_frequency(page: Page) -> None:
+    sine = {"shape": "sine", "amplitude": "10 mm", "offset": "30 mm", "period": "8 s"}
+    drive = {"load": {"mass": "10 kg"}, "valve": {"preset": "VPPM-6"}, "supply": "6 bar", "duration": "20 s",
+             "controller": {"kp": 1, "ki": 5, "reference": sine}}  # fmt: skip
+    state = {
+        "schema": 1,
+        "view": "transient",
+        "design": {},
+        "transient": {"drive": drive, "mode": "controller"},
+    }
+    open_transient(page, link_to(state))
+    expect(field(page, "Frequency")).to_have_value("0.125")
+
+
 def test_a_loop_that_swings_bears_no_tick(page: Page) -> None:
     open_transient(page)
     load_scenario(page, "paper-pid-pulse")

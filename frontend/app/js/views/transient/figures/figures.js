@@ -91,7 +91,7 @@ function verdict() {
     h(
       "p",
       { class: `verdict ${grade}` },
-      icon({ good: "check", plain: "info" }[grade] ?? "warn"),
+      icon({ good: "check", plain: "info", warn: "warn", bad: "warn" }[grade]),
       h(
         "span",
         null,
