@@ -235,8 +235,9 @@ class _Motion:
         there = (self._first(0.9 * self.stroke) or 0.0) if impact is None else self._since(impact)
         for since in (0.5 * self.last, min(there, 0.5 * self.last)):
             rows = slice(int(np.searchsorted(self.time, since)), None)
-            found = None if self.contact[rows].all() else swing_of(self.time[rows], self.travel[rows])
-            if found is not None:
+            if not np.ptp(self.travel[rows]) > 2.0 * least:
+                return None
+            if (found := swing_of(self.time[rows], self.travel[rows])) is not None:
                 return found if found.amplitude > least else None
         return None
 

@@ -91,7 +91,7 @@ function verdict() {
     h(
       "p",
       { class: `verdict ${grade}` },
-      icon({ good: "check", plain: "info", warn: "warn", bad: "warn" }[grade]),
+      icon(grade === "good" ? "check" : grade === "plain" ? "info" : "warn"),
       h(
         "span",
         null,
