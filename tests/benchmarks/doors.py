@@ -86,9 +86,7 @@ def over_http(folder: Path) -> None:
             ask()
             waits.append(time.perf_counter() - at)
         mean = 1e3 * (processor_of(server.pid) - began) / REQUESTS
-        say(
-            f"HTTP, propneu-20, 1000 rows: {mean:.2f} of the server; {1e3 * min(waits):.2f} ms waited at least"
-        )
+        say(f"HTTP, propneu-20, 1000 rows: {mean:.2f} of the server; {1e3 * min(waits):.2f} ms waited")
 
 
 def processor_of(pid: int) -> float:

@@ -315,7 +315,7 @@ class Writer:
         return self._unless_zero(self._gates(exponent), lambda: self._call("llvm.pow.f64", *given), 1.0)
 
     def _gates(self, exponent: Any) -> list[Any]:
-        """Constants of a run of which each term of an exponent has one as a factor; none where a term has none.
+        """Constants of a run, one a factor of each term of an exponent; none where a term has none.
 
         Such are the exponents of effects: 0 where the term is not in use, and the power is 1. What the
         logarithms in it are of is computed here, so that others may share it.
