@@ -150,7 +150,7 @@ def _corrects(kind: type) -> bool:
     if hasattr(kind, "CORRECTING"):
         return True
     kinds = get_type_hints(kind)
-    return any(_may_correct(kinds[field.name]) for field in fields(kind))
+    return any(_may_correct(kinds[field.name]) for field in fields(cast(Any, kind)))
 
 
 def _may_correct(kind: Any) -> bool:

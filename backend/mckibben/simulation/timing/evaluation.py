@@ -130,7 +130,7 @@ def trace_of(run: Run) -> Trace | None:
         "tube_charge": total(_tube_charge(run, suffix) for suffix in suffixes),
     }
     table = np.array([columns[name] for name in REAL])
-    usable = np.isfinite(table).all(axis=0)
+    usable = np.all(np.isfinite(table), axis=0)
     count = len(usable) if usable.all() else int(np.argmin(usable))
     if count < 2:
         return None
