@@ -54,6 +54,7 @@ from mckibben.simulation.timing.evaluation import (
     Grid,
     choked_of,
     grid_of,
+    of_figures,
     stops_of,
     timing_of,
     trace_of,
@@ -95,19 +96,25 @@ class JointMotion:
     stiffness_range: tuple[Number, Number]
 
 
-def joint_of(run: Run, rows: Array) -> JointMotion | None:
-    """Angle, torque and stiffness of a pair's pulley; the stiffness at constant pressures."""
+def joint_of(run: Run, rows: Array, figures: Run) -> JointMotion | None:
+    """Angle, torque and stiffness of a pair's pulley; the stiffness at constant pressures.
+
+    Args:
+        run: the run.
+        rows: of the result.
+        figures: the run at the times of its figures.
+    """
     drive = run.drive
     if drive.pulley_radius is None:
         return None
     radius = drive.pulley_radius
     counter = run.outputs[f"force{COUNTER}"][rows]
-    wanted = None if drive.stiffness is None else np.asarray(drive.stiffness.reference.value(run.time))
-    error, whole = None, None
-    if wanted is not None and len(run.time) > 1:
-        whole = _stiffness(run, slice(None))
-        square = (whole - wanted) ** 2
-        error = float(np.sqrt(np.trapezoid(square, run.time) / np.ptp(run.time)))
+    error, wanted = None, None
+    if drive.stiffness is not None:
+        wanted = np.asarray(drive.stiffness.reference.value(run.time[rows]))
+        if len(figures.time) > 1:
+            square = (_stiffness(figures, slice(None)) - drive.stiffness.reference.value(figures.time)) ** 2
+            error = float(np.sqrt(np.trapezoid(square, figures.time) / np.ptp(figures.time)))
     flows = (run.outputs[f"{name}_flow{COUNTER}"][rows] for name in ("mass", "supply", "exhaust"))
     if run.counter_command is not None:
         command = run.counter_command.value(run.time)[rows]
@@ -116,7 +123,7 @@ def joint_of(run: Run, rows: Array) -> JointMotion | None:
         command = 2.0 * drive.common_command - np.asarray(own.value(run.time))[rows]
     inflow, supplied, vented = flows
     angle = run.states["stroke"][rows] / radius
-    stiffness = _stiffness(run, rows) if whole is None else whole[rows]
+    stiffness = _stiffness(run, rows)
     torque = radius * (run.outputs["force"][rows] - counter)
     return JointMotion(
         angle=angle,
@@ -132,7 +139,7 @@ def joint_of(run: Run, rows: Array) -> JointMotion | None:
         angle_reference=None
         if drive.reference is None
         else np.asarray(drive.reference.value(run.time))[rows] / radius,
-        stiffness_reference=None if wanted is None else wanted[rows],
+        stiffness_reference=wanted,
         stiffness_error=error,
         angle_range=_range(angle),
         torque_range=_range(torque),
@@ -350,10 +357,11 @@ def result_of(
     lever, rest = drive.load.lever_ratio, drive.muscle.nominal_length
     message = None if run.outcome is Outcome.COMPLETED else run.outcome.advice()
 
-    # What several fields rest on.
-    trace = once(lambda: trace_of(run))
+    # What several fields rest on; figures are of the same times whatever rows are asked for.
+    figures = once(lambda: of_figures(run, grid))
+    trace = once(lambda: trace_of(figures()))
     table = once(lambda: timing_of(drive, trace()))
-    follows = once(lambda: tracking_of(run, trace()))
+    follows = once(lambda: tracking_of(figures(), trace()))
     between = once(lambda: held_interval(drive))
     contraction = once(lambda: states["stroke"] / rest + drive.precontraction)
 
@@ -416,9 +424,9 @@ def result_of(
         ),
         gas=lambda: drive.gas_closure,
         readings=lambda: _readings(run, rows),
-        joint=lambda: joint_of(run, rows),
+        joint=lambda: joint_of(run, rows, figures()),
         interval=lambda: interval,
-        choked=lambda: choked_of(run),
+        choked=lambda: choked_of(figures()),
         timing=table,
         tracking=follows,
         verdict=lambda: verdict_of(table(), follows(), run.outcome, message),
@@ -426,7 +434,7 @@ def result_of(
         message=lambda: message,
         wall_ms=lambda: run.wall_seconds * 1e3,
         steps=lambda: run.steps,
-        flags=lambda: _flags(annotated, run, contraction()),
+        flags=lambda: _flags(annotated, figures()),
         notes=lambda: _notes(annotated, run, table(), follows(), held=between() is not None),
         limits=lambda: _bounds(annotated),
         geometry=lambda: geometry_of(annotated.start),
@@ -440,9 +448,10 @@ def result_of(
     )
 
 
-def _flags(annotated: AnnotatedDrive, run: Run, contraction: Array) -> list[Notice]:
+def _flags(annotated: AnnotatedDrive, run: Run) -> list[Notice]:
     """Remarks on a run."""
     drive = run.drive
+    contraction = run.states["stroke"] / drive.muscle.nominal_length + drive.precontraction
     return [
         *start_notices(annotated.start),
         *curve_fit_notices(drive.curve_fit),

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache, reduce
 from math import ceil
 from typing import ClassVar, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mckibben.facts.result import result_class
 from mckibben.physics.drive_terms import COUNTER, HIGH_STOP
@@ -37,10 +38,14 @@ _FEWEST_TRACKED = 4  # least number of rows for tracking figures
 
 @dataclass(frozen=True, slots=True)
 class Grid:
-    """Times of the integration, and which of them are rows of the result."""
+    """Times of the integration, which of them are rows of the result, and which those of its figures.
+
+    The figures of a run are those of the same times whatever rows are asked for; None = of all times.
+    """
 
     time: Array
     rows: Array
+    figures: Array | None = None
 
 
 @result_class
@@ -63,7 +68,7 @@ def time_step(duration: float) -> float:
 
 
 def grid_of(*, duration: float, begin: float, end: float, points: int, jumps: Sequence[float] = ()) -> Grid:
-    """Evenly spaced rows from begin to end within a finer grid of the whole run [s].
+    """Evenly spaced rows from begin to end, beside the times of the figures of the whole run [s].
 
     Args:
         duration: of the run.
@@ -78,27 +83,47 @@ def grid_of(*, duration: float, begin: float, end: float, points: int, jumps: Se
 @lru_cache(maxsize=32)
 def _grid_of(duration: float, begin: float, end: float, points: int, jumps: tuple[float, ...]) -> Grid:
     """`grid_of`: a drive that is run again, or with other values, has the grid that it had."""
-    step = time_step(duration)
-    finer = max(1, ceil((end - begin) / (points - 1) / step - 1e-9))
-    inner = np.linspace(begin, end, finer * (points - 1) + 1)
-    before = np.linspace(0.0, begin, ceil(begin / step), endpoint=False)
-    after = np.linspace(end, duration, ceil((duration - end) / step) + 1)[1:]
-    time = np.concatenate([before, inner, after])
-    shown = inner[::finer]
-    more = np.array([t for t in jumps if begin < t < end])
-    if 0 < len(more) <= _JUMPS * points:
-        shown, time = (_with_times(grid, more, _SAME_TIME * duration) for grid in (shown, time))
-    rows = np.searchsorted(time, shown)
-    time.flags.writeable = rows.flags.writeable = False
-    return Grid(time, rows)
+    near = _SAME_TIME * duration
+    finer = max(1, ceil(duration / _FEWEST / time_step(duration) - 1e-9))
+    figures = _with_jumps(np.linspace(0.0, duration, finer * _FEWEST + 1), jumps, _FEWEST, near)
+    shown = _with_jumps(np.linspace(begin, end, points), jumps, points, near)
+    at = _nearest(figures, shown)
+    others = shown[np.abs(figures[at] - shown) > near]
+    if not len(others):
+        figures.flags.writeable = at.flags.writeable = False
+        return Grid(figures, at)
+    time = np.sort(np.concatenate([figures, others]))
+    grid = Grid(time, _nearest(time, shown), np.searchsorted(time, figures))
+    for column in (grid.time, grid.rows, grid.figures):
+        if column is not None:
+            column.flags.writeable = False
+    return grid
 
 
-def _with_times(grid: Array, times: Array, near: float) -> Array:
-    """An ascending grid with these times, in the place of what is so near to one of them."""
-    after = np.searchsorted(times, grid)
-    neighbours = times[np.maximum(after - 1, 0)], times[np.minimum(after, len(times) - 1)]
-    beside = np.minimum(*(np.abs(grid - each) for each in neighbours)) <= near
+def _with_jumps(grid: Array, jumps: tuple[float, ...], points: int, near: float) -> Array:
+    """An ascending grid with the jumps within it, where they are few; what is so near to one is left out."""
+    times = np.array([t for t in jumps if grid[0] < t < grid[-1]])
+    if not 0 < len(times) <= _JUMPS * points:
+        return grid
+    beside = np.abs(times[_nearest(times, grid)] - grid) <= near
     return np.union1d(grid[~beside], times)
+
+
+def _nearest(grid: Array, times: Array) -> NDArray[np.intp]:
+    """Places in an ascending grid that are next to some times."""
+    after = np.minimum(np.searchsorted(grid, times), len(grid) - 1)
+    before = np.maximum(after - 1, 0)
+    return np.where(np.abs(grid[before] - times) < np.abs(grid[after] - times), before, after)
+
+
+def of_figures(run: Run, grid: Grid) -> Run:
+    """The run at the times of its figures alone."""
+    if grid.figures is None:
+        return run
+    kept = grid.figures[grid.figures < len(run.time)]
+    states = {name: column[kept] for name, column in run.states.items()}
+    outputs = {name: column[kept] for name, column in run.outputs.items()}
+    return replace(run, time=run.time[kept], states=states, outputs=outputs)
 
 
 def trace_of(run: Run) -> Trace | None:
