@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from math import pi, sin, tan
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -115,7 +116,9 @@ def test_each_fault_of_a_drive_is_found() -> None:
 
 
 @pytest.mark.parametrize("size", [20, 10])
-def test_a_curve_fit_is_called_one_wherever_it_is_used(size: int, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_curve_fit_is_called_one_wherever_it_is_used(
+    size: int, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
     name = f"propneu-{size}"
     said = f"curve fit of {DRIVES[name].document['curve_fit']}, not a drive"
     drive = mckibben.Drive.preset(name)
@@ -126,6 +129,9 @@ def test_a_curve_fit_is_called_one_wherever_it_is_used(size: int, capsys: pytest
         "figures": ["timing.extend.positioning_time"],
         "method": {"type": "grid"},
     }
+    run.save(tmp_path / "run.csv")
+    assert cli.run(["compare", str(tmp_path / "run.csv"), "--drive", name]) == 0
+    compared = "".join(capsys.readouterr())
     exported = subject_of(stated_source(name, STUDIO), STUDIO).about
     assert cli.run(["simulate", name]) == 0
     shown = {
@@ -138,6 +144,7 @@ def test_a_curve_fit_is_called_one_wherever_it_is_used(size: int, capsys: pytest
         "study": " ".join(mckibben.study(study).remarks),
         "export": next(exported.lines()),
         "terminal": capsys.readouterr().out,
+        "comparison": compared,
         "JSON of a run": to_json(run).decode(),
         "saved": str(drive.document),
     }

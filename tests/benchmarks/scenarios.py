@@ -126,10 +126,10 @@ def table(scenarios: list[Scenario]) -> str:
     for scenario in scenarios:
         rows = rows_of(scenario)
         for row in rows:
-            why = row.excluded or ""
+            why, differs = row.excluded or "", "–" if row.ours is None else f"{row.difference:+.1%}"
             lines.append(
                 f"| {scenario.preset.id} | {row.name} | {shown(row.ours, row.unit)} | "
-                f"{shown(row.paper, row.unit)} | {row.difference:+.1%} | {why} |"
+                f"{shown(row.paper, row.unit)} | {differs} | {why} |"
             )
         follows = scenario.result.tracking
         if follows is not None:

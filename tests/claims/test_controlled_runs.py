@@ -76,3 +76,17 @@ def test_a_limit_cycle_about_a_moving_reference_is_no_lack_of_gain() -> None:
         frequency, rel=0.05
     )
     assert "lower the gains" in (found.tracking.advice or "")
+
+
+@pytest.mark.parametrize(("level", "state"), [("45 mm", "on_stop"), ("29 mm", "settles")])
+def test_a_reference_behind_a_stop_is_no_lack_of_supply(level: str, state: str) -> None:
+    """The stop is at 30 mm: no muscle, valve or supply brings the load to 45 mm."""
+    run = mk.Drive(
+        muscle="DMSP-20:300mm", valve="VPPM-6", load={"mass": "5 kg"}, stops={"max_contraction": "10 %"},
+        controller={"kp": 1.0, "ki": 5.0, "reference": {"shape": "step", "at": "0.5 s", "level": level}},
+        duration="4 s",
+    ).run()  # fmt: skip
+    assert run.tracking is not None
+    assert run.tracking.state == state
+    assert run.verdict.state == ("off_target" if state == "on_stop" else state)
+    assert state == "settles" or "end stops" in (run.tracking.advice or "")

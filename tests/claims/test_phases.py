@@ -67,3 +67,37 @@ def test_a_stop_beyond_the_demanded_stroke_is_no_arrival() -> None:
     assert fill.positioning_time is None
     assert fill.settling_time is None
     assert fill.state == "never_arrived"
+
+
+@pytest.mark.parametrize("pause", [0.02, 0.1, 0.15, 0.3])
+def test_a_load_that_swings_is_said_to_swing_wherever_its_phase_ends(pause: float) -> None:
+    """The fitted lift of size 20 swings; the vent comes anywhere in the swing."""
+    drive = mk.Drive.preset("propneu-20")
+    found = drive.changed(command={"shape": "pulse", "on": 0.0, "off": 1.0 + pause}).run()
+    fill, there = found.timing.extend, (found.time > 0.25) & (found.time < 1.0 + pause)
+    turns = np.flatnonzero(np.diff(np.sign(found.velocity[there])))  # two in each period
+    assert fill.state == "swings"
+    assert fill.swing_frequency == pytest.approx(0.5 / np.mean(np.diff(found.time[there][turns])), rel=0.1)
+    assert fill.positioning_time is fill.settling_time is None
+
+
+def test_a_muscle_that_is_held_at_its_level_is_not_filled() -> None:
+    """In the load ramp of the paper the valve is open before the run and stays open."""
+    found = mk.Drive.preset("paper-ramp").run()
+    assert found.verdict.state is found.verdict.met is None
+    assert found.timing.extend.state is found.timing.retract.state is None
+
+
+def test_a_step_from_a_level_to_a_higher_one_is_a_fill() -> None:
+    """A regulator goes from 1 to 4 bar at 1 s: the lift begins there, not with the run."""
+    found = mk.Drive(
+        muscle="DMSP-20:300mm", valve="VPPM-6", load="20 kg", duration="4 s", start_pressure="1 bar",
+        command={"shape": "step", "initial": 1 / 6, "at": "1 s", "level": 4 / 6},
+    ).run()  # fmt: skip
+    fill = found.timing.extend
+    half = 0.5 * (found.position[0] + found.position[-1])
+    passed = float(np.interp(half, found.position[:1000], found.time[:1000]))
+    assert fill.stroke == pytest.approx(
+        found.position[-1] - np.interp(1.0, found.time, found.position), rel=1e-3
+    )
+    assert fill.delay_time == pytest.approx(passed - 1.0, abs=2e-3)

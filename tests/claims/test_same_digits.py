@@ -69,3 +69,15 @@ def test_a_sizing(shared_client: TestClient, printed: Any) -> None:
     for name in ("nominal_length", "pressure", "time", "air_volume_anr", "force_reserve", "reason"):
         found = [each[name] for each in over_http]
         assert found == [each[name] for each in on_terminal] == [each[name] for each in in_python], name
+
+
+@pytest.mark.parametrize("name", ["propneu-20-physical", "paper-pid-pulse", "joint-20"])
+def test_figures_do_not_depend_on_the_rows_that_are_asked_for(name: str) -> None:
+    drive = mk.Drive.preset(name)
+    usual = drive.run().to_dict()
+    kept = ("timing", "tracking", "verdict", "choked", "events", "supplied_volume_anr", "flags", "notes")
+    for rows in ({"points": 11}, {"points": 1000}, {"points": 777, "begin": "0.1 s", "end": 0.7}):
+        found = drive.run(**rows).to_dict()
+        assert {key: found[key] for key in kept} == {key: usual[key] for key in kept}
+        if found["joint"]:
+            assert found["joint"]["stiffness_error"] == usual["joint"]["stiffness_error"]

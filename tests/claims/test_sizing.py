@@ -64,6 +64,40 @@ def test_a_remedy_is_the_smallest_that_works_and_works() -> None:
     assert not enough(limits={**limits, "max_length": f"{millimetres - 2} mm"})
 
 
+def test_a_remedy_that_carries_the_load_is_quick_enough_or_says_how_slow_it_is() -> None:
+    """A stroke of 200 mm in 0.5 s, with more room than there is: each remedy is made a task of its own."""
+    several = {"muscles": ["DMSP-10", "DMSP-40"], "valves": ["MPYE-5-1/8-HF"], "tube_length": "1 m"}
+
+    def of_stroke(**changes: Any) -> Any:
+        return sized(catalogue=several, stroke="200 mm", **changes)
+
+    refused = of_stroke().rejected
+    assert {(each.muscle, each.parallel) for each in refused} == {
+        (muscle, count) for muscle in ("DMSP-10", "DMSP-40") for count in (1, 2)
+    }
+    slower = 0
+    for each in refused:
+        assert each.why.startswith(("one ", "2 × ")), "the sentence has its subject"
+        length = re.match(r"(\d+) mm long", each.would_work_if)
+        late = re.match(r".*, and ([\d.]+) times the time allowed", each.would_work_if)
+        assert length, each.would_work_if
+        limits, time = (
+            {**TASK["limits"], "max_length": f"{length[1]} mm"},
+            0.5 * float(late[1] if late else 1.0),
+        )
+
+        def found(
+            who: tuple[str, int] = (each.muscle, each.parallel), limits: Any = limits, **changes: Any
+        ) -> bool:
+            proposals = of_stroke(limits=limits, max_proposals=20, **changes).proposals
+            return who in {(one.muscle, one.parallel) for one in proposals}
+
+        assert found(time=time)
+        slower += late is not None
+        assert late is None or not found(time=0.97 * time)
+    assert slower == 1  # two DMSP-40 share a valve
+
+
 def test_no_drive_is_an_answer_with_an_exit_code_of_its_own(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

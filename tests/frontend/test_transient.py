@@ -117,12 +117,36 @@ def test_a_scenario_brings_its_drive_and_the_printed_figures(page: Page) -> None
     expect(page.locator("#drive-muscle")).to_contain_text("780 mm")
     expect(field(page, "Mass")).to_have_value("9.321")
     paper = page.get_by_role("region", name="Figures of the run and of the paper")
-    row = paper.locator("tr", has_text="Positioning time, fill")
+    row = paper.locator("tr", has_text="Time to 50 % of the stroke, fill")
     ours, theirs = (float(row.locator("td").nth(i).inner_text()) for i in (0, 1))
-    assert theirs == 190
+    assert theirs == 148
     assert ours == pytest.approx(theirs, rel=0.1)
+    row = paper.locator("tr", has_text="Positioning time, fill")  # the load of the fit swings: it has none
+    assert [row.locator("td").nth(i).inner_text() for i in (0, 1)] == ["–", "190"]
     rerun(page, lambda: page.get_by_role("button", name="Undo: scenario").click())
     expect(page.locator("#drive-muscle")).to_contain_text("300 mm")
+
+
+def test_a_run_that_is_asked_nothing_bears_no_tick(page: Page) -> None:
+    open_transient(page)
+    load_scenario(page, "paper-ramp")
+    verdict = page.locator(".transient .verdict")
+    expect(verdict).to_have_class("verdict plain")
+    expect(verdict).to_contain_text("Nothing is judged")
+
+
+def test_the_period_of_a_sine_is_shown_as_its_frequency(page: Page) -> None:
+    sine = {"shape": "sine", "amplitude": "10 mm", "offset": "30 mm", "period": "8 s"}
+    drive = {"load": {"mass": "10 kg"}, "valve": {"preset": "VPPM-6"}, "supply": "6 bar", "duration": "20 s",
+             "controller": {"kp": 1, "ki": 5, "reference": sine}}  # fmt: skip
+    state = {
+        "schema": 1,
+        "view": "transient",
+        "design": {},
+        "transient": {"drive": drive, "mode": "controller"},
+    }
+    open_transient(page, link_to(state))
+    expect(field(page, "Frequency")).to_have_value("0.125")
 
 
 def test_a_loop_that_swings_bears_no_tick(page: Page) -> None:

@@ -7,6 +7,7 @@ works with when it runs, so that others and --help need not wait for that.
 
 from __future__ import annotations
 
+import gc
 import sys
 
 # In the order of the help.
@@ -31,4 +32,6 @@ __all__ = [
 
 def main() -> None:
     """Entry point of the console script."""
+    # What is loaded and built at the start is not garbage: looking for it so often takes a tenth of the time.
+    gc.set_threshold(50_000, 20, 50)
     sys.exit(run(sys.argv[1:]))

@@ -10,9 +10,10 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping
-from dataclasses import is_dataclass, replace
+from dataclasses import fields, is_dataclass, replace
 from enum import Enum, auto
-from typing import Any, Literal, TypeVar, cast
+from functools import cache
+from typing import Any, ClassVar, Literal, TypeVar, cast, get_args, get_origin, get_type_hints
 
 import numpy as np
 
@@ -117,6 +118,8 @@ def _reworded(door: Door, value: Any, *, corrects: bool = False) -> Any:
         said = in_words_of(door, value) if corrects else value
         return value if said == value else said
     if is_dataclass(value) and not isinstance(value, type):
+        if not _corrects(type(value)):
+            return value
         named: tuple[str, ...] = getattr(value, "CORRECTING", ())
         changed = {}
         for name in value.__dataclass_fields__:
@@ -139,6 +142,25 @@ def _reworded(door: Door, value: Any, *, corrects: bool = False) -> Any:
         pairs = {key: _reworded(door, part, corrects=corrects) for key, part in value.items()}
         return value if all(new is value[key] for key, new in pairs.items()) else pairs
     return value
+
+
+@cache
+def _corrects(kind: type) -> bool:
+    """Whether a result class, or one inside of it, has fields that hold corrections."""
+    if hasattr(kind, "CORRECTING"):
+        return True
+    kinds = get_type_hints(kind)
+    return any(_may_correct(kinds[field.name]) for field in fields(cast(Any, kind)))
+
+
+def _may_correct(kind: Any) -> bool:
+    """Whether a value of an annotated type may hold corrections; of any type, it may."""
+    if is_dataclass(kind):
+        return _corrects(cast(type, kind))
+    if kind in (Any, object) or isinstance(kind, TypeVar):
+        return True
+    of = get_origin(kind)
+    return of not in (np.ndarray, ClassVar) and any(map(_may_correct, get_args(kind)))
 
 
 def _http(value: str, kind: _Kind) -> object:

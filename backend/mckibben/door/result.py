@@ -7,10 +7,9 @@ from __future__ import annotations
 import json
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from dataclasses import fields
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar, cast
+from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar
 
 from mckibben.application.json_text import answer_json
 from mckibben.application.text_file import check_ending, write_text
@@ -76,11 +75,19 @@ class Holding(Frozen, Generic[ResultT]):
             result: of the use case.
             more: further attributes, and fields in another form.
         """
-        result = result_in_words_of("python", result)
         made = cls.__new__(cls)
-        known = {field.name: getattr(result, field.name) for field in fields(cast(Any, result))}
-        made._set(_result=result, **{**known, **more})
+        made._set(_result=result_in_words_of("python", result), **more)
         return made
+
+    if not TYPE_CHECKING:  # a checker would take any name for a field
+
+        @reported  # what is computed when it is read
+        def __getattr__(self, name: str) -> Any:
+            if name not in type(self).__dataclass_fields__:
+                raise AttributeError(f"{type(self).__name__} has no {name!r}", name=name, obj=self)
+            value = getattr(self._result, name)
+            self._set(**{name: value})
+            return value
 
     @property
     def details(self) -> ResultT:

@@ -18,12 +18,12 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import MISSING, dataclass, fields
 from functools import cache
 from inspect import getsourcefile
 from pathlib import Path
-from typing import Annotated, Any, TypeVar, cast, dataclass_transform
+from typing import TYPE_CHECKING, Annotated, Any, Self, TypeVar, cast, dataclass_transform
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +31,7 @@ from numpy.typing import NDArray
 from mckibben.facts.groups import GROUPS
 
 ClassT = TypeVar("ClassT")
+ValueT = TypeVar("ValueT")
 
 _UNIT = re.compile(r" ?\[([^\[\]]+)\]")
 
@@ -70,6 +71,58 @@ def _freeze_arrays(result: Any) -> None:
         value = getattr(result, name)
         if isinstance(value, np.ndarray):
             object.__setattr__(result, name, read_only(value))
+
+
+class Deferring:
+    """Base of a `result_class` whose fields may be computed when they are first read.
+
+    Most who ask in a loop read few of them. Two threads that read a field at once may both compute it.
+    """
+
+    __slots__ = ("_later",)
+
+    _later: Mapping[str, Callable[[], Any]]
+
+    @classmethod
+    def deferred(cls, **later: Callable[[], Any]) -> Self:
+        """A result of functions, one for each field.
+
+        Raises:
+            TypeError: a field without a function, or a function without a field.
+        """
+        if later.keys() != (known := _names_of(cls)):
+            raise TypeError(f"{cls.__name__}: {', '.join(sorted(later.keys() ^ known))} missing or unknown")
+        made = cls.__new__(cls)
+        object.__setattr__(made, "_later", later)
+        return made
+
+    if not TYPE_CHECKING:  # a checker would take any name for a field
+
+        def __getattr__(self, name: str) -> Any:
+            if name not in type(self).__dataclass_fields__:
+                raise AttributeError(f"{type(self).__name__} has no {name!r}", name=name, obj=self)
+            value = self._later[name]()
+            if isinstance(value, np.ndarray):
+                value = read_only(value)
+            object.__setattr__(self, name, value)
+            return value
+
+
+@cache
+def _names_of(cls: type) -> frozenset[str]:
+    return frozenset(field.name for field in fields(cast(Any, cls)))
+
+
+def once(compute: Callable[[], ValueT]) -> Callable[[], ValueT]:
+    """The function, which is called at most once: for what several fields of a `Deferring` rest on."""
+    found: list[ValueT] = []
+
+    def value() -> ValueT:
+        if not found:
+            found.append(compute())
+        return found[0]
+
+    return value
 
 
 def read_only(values: NDArray[Any]) -> NDArray[Any]:

@@ -163,7 +163,12 @@ async def whole(
     workers = _workers(request, kind, quick=quick)
     if workers is None:
         job = JOBS[kind]
-        work = await prepared(request, job.prepare, body, studio, store)
+        if quick:  # in one thread: to change it takes as long as a short run
+
+            def work(watch: Watch) -> object:
+                return job.prepare(body, studio, store)(watch)
+        else:
+            work = await prepared(request, job.prepare, body, studio, store)
         return await finished(request, work, lambda found: found, time_limit=job.time_limit)
     ending = asyncio.ensure_future(_last(_worked(workers, kind, body)))
     ending.add_done_callback(_exception_of)

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from mckibben.sizing.catalogue import MusclePart
-from mckibben.sizing.statics import LimitName, Rest, at_rest, contraction_limit, margins
+from mckibben.sizing.statics import HAIR, LimitName, Rest, at_rest, contraction_limit, margins
 from mckibben.sizing.task import Duty, Task
 
 Array = np.ndarray
@@ -20,7 +20,6 @@ _LOWEST_SHARE = 0.3  # of the pressure available
 # The grid beyond the task's limits, to find out what would help.
 _LONGER, _FURTHER_LENGTHS, _FURTHER_PRESSURES, _MORE_PARALLEL = 4.0, 24, 8, 2
 _ZOOMS, _DIVISIONS = 4, 8  # of the grid, around the least change that would help
-_HAIR = 1e-9  # a margin is kept down to this far below zero: rounding
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,12 +40,12 @@ class Sheet:
     @cached_property
     def lacking(self) -> Array:
         """How many limits each design violates; shape (designs,)."""
-        return np.sum([margin < -_HAIR for margin in self.margins.values()], axis=0)
+        return np.sum([margin < -HAIR for margin in self.margins.values()], axis=0)
 
     @cached_property
     def allowed(self) -> Array:
         """Designs within length, pressure and contraction of the task: the combinations tried."""
-        inside = [self.margins[name] >= -_HAIR for name in ("length", "pressure", "contraction")]
+        inside = [self.margins[name] >= -HAIR for name in ("length", "pressure", "contraction")]
         return np.all(inside, axis=0) & (self.rest.parallel <= self.task.limits.max_parallel)
 
     def sound(self, parallel: int) -> Array:
@@ -130,7 +129,7 @@ def shortfall(sheet: Sheet, parallel: int) -> Shortfall:
     designs = sheet.of(parallel)
     remedies: dict[LimitName, Remedy] = {}
     for name, margin in sheet.margins.items():
-        alone = designs[(sheet.lacking[designs] == 1) & (margin[designs] < -_HAIR)]
+        alone = designs[(sheet.lacking[designs] == 1) & (margin[designs] < -HAIR)]
         if len(alone):
             remedies[name] = _least_change(sheet, name, int(alone[np.argmax(margin[alone])]))
     stated = {name: each.share for name, each in remedies.items() if _movable(sheet, name, each.rest)}
@@ -170,7 +169,7 @@ def _least_change(sheet: Sheet, name: LimitName, index: int) -> Remedy:
             part, sheet.duty, sheet.task, length, pressure, np.full(length.shape, best.parallel[0])
         )
         limits = margins(found, part, sheet.task)
-        others = np.all([each >= -_HAIR for key, each in limits.items() if key != name], axis=0)
+        others = np.all([each >= -HAIR for key, each in limits.items() if key != name], axis=0)
         left = np.where(others, limits[name], -np.inf)
         nearest = int(np.argmax(left))
         if left[nearest] > margin:
@@ -190,7 +189,7 @@ def _movable(sheet: Sheet, name: str, rest: Rest) -> bool:
         return bool(rest.capacity[0] >= 1.0)  # only the reserve is missing
     if name == "contraction":
         makers_limit = sheet.part.limits.max_contraction
-        return makers_limit is None or bool(rest.contraction[0] <= makers_limit * (1.0 + _HAIR))
+        return makers_limit is None or bool(rest.contraction[0] <= makers_limit * (1.0 + HAIR))
     return name not in ("force_limit", "suspended_mass")
 
 

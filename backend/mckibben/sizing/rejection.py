@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import ceil, floor, isfinite, log10
 
@@ -10,7 +10,7 @@ import numpy as np
 
 from mckibben.sizing.catalogue import Group, MusclePart, PartsCatalogue
 from mckibben.sizing.design_table import Sheet, Shortfall, shortfall
-from mckibben.sizing.statics import LimitName, contraction_limit
+from mckibben.sizing.statics import HAIR, LimitName, at_rest, contraction_limit, margins
 from mckibben.sizing.task import Task
 from mckibben.sizing.trial import Trial
 
@@ -41,8 +41,66 @@ class Rejection:
     combinations: int = 0
 
 
+#: Muscle, number in parallel, and the limit that is moved (None: the number itself).
+RemedyKey = tuple[str, int, LimitName | None]
+#: Largest share of its time that a remedy takes, by a run with the load; infinite: it does not arrive.
+Lateness = Mapping[RemedyKey, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Unsound:
+    """A muscle that the closed form rules out in a number, with any valve."""
+
+    sheet: Sheet
+    parallel: int
+    lacking: Shortfall
+
+    @property
+    def designs(self) -> Iterator[tuple[RemedyKey, int, float, float]]:
+        """What it takes to show a remedy with the load of the task: number of muscles, length, pressure.
+
+        Where pressure is not what is moved, the full one that no other limit forbids may be quicker.
+        """
+        name, rest = self.sheet.part.id, self.sheet.rest
+        for limit, remedy in self.lacking.remedies.items():
+            if limit == "suspended_mass" or (limit == "force" and not remedy.rest.capacity[0] >= 1.0):
+                continue
+            length, pressure = float(remedy.rest.length[0]), float(remedy.rest.pressure[0])
+            yield (name, self.parallel, limit), self.parallel, length, pressure
+            if limit in ("length", "contraction"):
+                most = self._full(length)
+                if most > pressure:
+                    yield (name, self.parallel, limit), self.parallel, length, most
+        for count in range(self.parallel + 1, int(rest.parallel.max()) + 1):
+            sound = self.sheet.sound(count)
+            for index in sound[np.argsort(-rest.capacity[sound])][:1]:
+                yield (name, count, None), count, float(rest.length[index]), float(rest.pressure[index])
+
+    def _full(self, length: float) -> float:
+        """The highest pressure of the task at which a length breaks no limit but its own [Pa]; 0 = none."""
+        sheet = self.sheet
+        pressures = np.unique(sheet.rest.pressure)
+        alike = np.full(pressures.shape, length), pressures, np.full(pressures.shape, float(self.parallel))
+        limits = margins(at_rest(sheet.part, sheet.duty, sheet.task, *alike), sheet.part, sheet.task)
+        moved = ("length", "contraction")
+        kept = np.all([each >= -HAIR for name, each in limits.items() if name not in moved], axis=0)
+        return float(np.max(pressures[kept], initial=0.0))
+
+
+def unsound(sheets: Sequence[Sheet], task: Task) -> list[Unsound]:
+    """What the closed form rules out, by the sheet of each muscle that comes nearest."""
+    counts = range(1, task.limits.max_parallel + 1)
+    sound = {(sheet.part.id, count) for sheet in sheets for count in counts if len(sheet.sound(count))}
+    return [
+        Unsound(sheet, count, shortfall(sheet, count))
+        for sheet in _nearest(sheets, task)
+        for count in counts
+        if (sheet.part.id, count) not in sound
+    ]
+
+
 def at_rest_rejections(
-    sheets: Sequence[Sheet], catalogue: PartsCatalogue, task: Task, works: set[str]
+    ruled_out: Sequence[Unsound], catalogue: PartsCatalogue, task: Task, works: set[str], lateness: Lateness
 ) -> list[Rejection]:
     """Muscles that the closed form rules out with any valve; ``works`` names those that fulfil the task."""
     rejections = [
@@ -50,28 +108,23 @@ def at_rest_rejections(
         for part in catalogue.muscles
         if (why := temperature_text(part, task)) is not None
     ]
-    counts = range(1, task.limits.max_parallel + 1)
-    sound = {(sheet.part.id, count) for sheet in sheets for count in counts if len(sheet.sound(count))}
     pairs = len(catalogue.valves) * len(catalogue.tubes)
-    for sheet in _nearest(sheets, task):
+    for item in ruled_out:
+        sheet, count, lacking = item.sheet, item.parallel, item.lacking
         name = sheet.part.id
         series = name.partition("-")[0]
         others = tuple(sorted(works - {name}, key=lambda other: (other.partition("-")[0] != series, other)))
-        for count in counts:
-            if (name, count) in sound:
-                continue
-            lacking = shortfall(sheet, count)
-            rejections.append(
-                Rejection(
-                    name,
-                    count,
-                    why_at_rest(sheet, count, lacking),
-                    lacking.binding,
-                    remedies_text(sheet, count, lacking, others),
-                    nearness=min((each.share for each in lacking.remedies.values()), default=_NEVER),
-                    combinations=int(np.sum(sheet.allowed & (sheet.rest.parallel == count))) * pairs,
-                )
+        rejections.append(
+            Rejection(
+                name,
+                count,
+                why_at_rest(sheet, count, lacking),
+                lacking.binding,
+                remedies_text(sheet, count, lacking, others, lateness),
+                nearness=min((each.share for each in lacking.remedies.values()), default=_NEVER),
+                combinations=int(np.sum(sheet.allowed & (sheet.rest.parallel == count))) * pairs,
             )
+        )
     return rejections
 
 
@@ -157,14 +210,14 @@ def why_at_rest(sheet: Sheet, parallel: int, lacking: Shortfall) -> str:
     if lacking.best is None:
         if least > part.longest:
             return (
-                f"{length_text(sheet.duty.pull)} at {most * 100:.3g} % contraction needs a muscle of "
+                f"{who}: {length_text(sheet.duty.pull)} at {most * 100:.3g} % contraction needs a muscle of "
                 f"{length_text(least)}; the longest {part.id} is {length_text(part.longest)}"
             )
         if part.shortest > room:
             return f"the shortest {part.id} is {length_text(part.shortest)}; {length_text(room)} is available"
         if least > room:
             return (
-                f"{length_text(sheet.duty.pull)} at {most * 100:.3g} % contraction needs a muscle of "
+                f"{who}: {length_text(sheet.duty.pull)} at {most * 100:.3g} % contraction needs a muscle of "
                 f"{length_text(least)}; {length_text(room)} is available"
             )
     if lacking.best is None:
@@ -213,49 +266,67 @@ def _carrying(task: Task, part: MusclePart, parallel: int) -> str:
     return f"would carry {mass:.4g} kg{each}; the maker permits {part.suspended_mass:.4g} kg freely suspended"
 
 
-def remedies_text(sheet: Sheet, parallel: int, lacking: Shortfall, others: tuple[str, ...]) -> str:
+def remedies_text(
+    sheet: Sheet, parallel: int, lacking: Shortfall, others: tuple[str, ...], lateness: Lateness
+) -> str:
     """Changes that would make this number of muscles suffice, least change first, another muscle last.
 
     Each is the least of its kind to a millimetre, 0.01 bar or three digits, rounded to where it suffices.
+    A run says how long the stroke then takes; what does not arrive at all is no remedy.
     """
     task, part = sheet.task, sheet.part
     texts: list[str] = []
+
+    def offer(text: str, count: int = parallel, limit: LimitName | None = None) -> None:
+        late = lateness.get((part.id, count, limit))
+        if late is None:
+            texts.append(f"{text} (at rest; not simulated)")
+        elif late <= 1.0 + _ROUNDING:
+            texts.append(text)
+        elif isfinite(late):
+            texts.append(f"{text}, and {rounded_up(late, 3)} times the time allowed")
+
     for name, remedy in sorted(lacking.remedies.items(), key=lambda item: item[1].share):
         rest, share = remedy.rest, remedy.share
         match name:
             case "length":
                 long = ceil(1e3 * float(rest.length[0]) - _ROUNDING)
                 more = long - 1e3 * (task.limits.max_length - task.limits.end_fittings)
-                texts.append(f"{long} mm long (+{more:.3g} mm of room)")
+                offer(f"{long} mm long (+{more:.0f} mm of room)", limit=name)
             case "pressure":
                 bar = ceil(1e2 * float(rest.pressure[0]) / _BAR - _ROUNDING) / 1e2
-                texts.append(f"{bar:.4g} bar ({bar - task.available_pressure / _BAR:.2g} bar more)")
+                more_bar = bar - task.available_pressure / _BAR
+                offer(f"{bar:.4g} bar ({more_bar:.2g} bar more)", limit=name)
             case "contraction" if part.limits.max_contraction is not None:
                 if rest.contraction[0] <= part.limits.max_contraction * (1.0 + 1e-9):
-                    texts.append(f"{rounded_up(float(rest.contraction[0]) * 100, 3)} % contraction")
+                    offer(f"{rounded_up(float(rest.contraction[0]) * 100, 3)} % contraction", limit=name)
             case "force" if rest.capacity[0] > 0.0:
                 if rest.capacity[0] >= 1.0:
                     reserve = rounded_down((float(rest.capacity[0]) - 1.0) * 100, 2)
-                    texts.append(f"a force reserve of {reserve} %")
+                    offer(f"a force reserve of {reserve} %", limit=name)
                 else:
-                    texts.append(f"{rounded_up(share / (1.0 + share) * 100, 2)} % less load")
+                    offer(f"{rounded_up(share / (1.0 + share) * 100, 2)} % less load", limit=name)
             case "diameter":
                 wide = float(rest.outer_diameter[0])
                 more = wide - (task.limits.max_diameter or 0.0)
-                texts.append(f"{rounded_up(wide * 1e3, 3)} mm of diameter (+{rounded_up(more * 1e3, 2)} mm)")
+                offer(
+                    f"{rounded_up(wide * 1e3, 3)} mm of diameter (+{rounded_up(more * 1e3, 2)} mm)",
+                    limit=name,
+                )
             case "suspended_mass":
-                texts.append(f"{rounded_up(share / (1.0 + share) * 100, 2)} % less mass")
+                offer(f"{rounded_up(share / (1.0 + share) * 100, 2)} % less mass", limit=name)
             case "stiffness":
-                texts.append(f"{rounded_down(float(rest.stiffness[0]), 3)} N/m accepted")
+                offer(f"{rounded_down(float(rest.stiffness[0]), 3)} N/m accepted", limit=name)
             case "life":
-                texts.append(f"{rounded_down(float(rest.life[0]), 2)} cycles accepted")
+                offer(f"{rounded_down(float(rest.life[0]), 2)} cycles accepted", limit=name)
             case _:
                 pass
-    more_muscles = [
-        count for count in range(parallel + 1, int(sheet.rest.parallel.max()) + 1) if len(sheet.sound(count))
-    ]
-    if more_muscles:
-        texts.append(f"{more_muscles[0]} in parallel")
+    for count in range(parallel + 1, int(sheet.rest.parallel.max()) + 1):
+        if len(sheet.sound(count)):
+            before = len(texts)
+            offer(f"{count} in parallel", count)
+            if len(texts) > before:
+                break
     if others:
         texts.append(f"{others[0]} instead")
     return "; or ".join(texts) if texts else "nothing that is in the catalogue"

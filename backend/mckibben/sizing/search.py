@@ -18,17 +18,21 @@ from mckibben.sizing.refine import refined
 from mckibben.sizing.rejection import (
     Failed,
     Rejection,
+    RemedyKey,
+    Unsound,
     WrongPressure,
     at_rest_rejections,
     slow_rejections,
     temperature_text,
+    unsound,
 )
 from mckibben.sizing.statics import least_time
 from mckibben.sizing.task import Task
-from mckibben.sizing.trial import AtRest, Trial, at_rest_of, trial_of
+from mckibben.sizing.trial import AtRest, Trial, at_rest_of, times_over, trial_of
 
 # Progress after each stage, as a share of the whole work.
 _PRUNED, _TRIED, _REFINED, _MEASURED = 0.1, 0.35, 0.65, 0.7
+_FASTEST = 2  # choices of valve and tube with which a remedy is run
 _OF_ONE_KIND = 4  # most proposals with the same muscles, while there are others
 _SPARE = 4  # designs refined beyond the number requested: some fail on the fine grid
 _MOST_GROUPS = 240  # most groups simulated
@@ -126,6 +130,8 @@ class _Search:
         self.proposals: list[Proposal] = []
         self.settled = False  # whether each candidate was tried as often as it can be
         self.broken: list[Failed] = []  # those that break a limit on the fine grid
+        self.ruled_out: list[Unsound] = []
+        self.lateness: dict[RemedyKey, float] = {}
 
     def run(self) -> None:
         """Run all stages; what each finds stays, wherever the watch ends them.
@@ -142,8 +148,10 @@ class _Search:
             if temperature_text(part, task) is None
         ]
         candidates = self._likely(self._prune())
+        self.ruled_out = unsound(self.sheets, task)
         bench.check_end(_PRUNED)
         self._try(candidates)
+        self._try_remedies()
         self.better = self._chosen(task.max_proposals + _SPARE)
         for better in refined(self.better, bench, (_TRIED, _REFINED)):
             self.better = better
@@ -164,7 +172,7 @@ class _Search:
         sizing.explored = good
         sizing.untried = sizing.choices - len(self.ran)
         works = {proposal.design.group.muscle.id for proposal in self.proposals}
-        sizing.rejected = at_rest_rejections(self.sheets, self.catalogue, task, works)
+        sizing.rejected = at_rest_rejections(self.ruled_out, self.catalogue, task, works, self.lateness)
         broken = self.broken if sizing.refined else []  # another length or pressure may keep the limit
         sizing.rejected += slow_rejections([*self.failed, *slow, *broken], task, works)
         sizing.rejected.sort(key=lambda rejection: rejection.nearness)
@@ -238,6 +246,23 @@ class _Search:
         ]
         self._run(again, (0.8 * _TRIED, _TRIED))
         self.settled = True
+
+    def _try_remedies(self) -> None:
+        """Run what would help the muscles that the closed form rules out, with the parts of the most flow."""
+        jobs: dict[RemedyKey, list[Design]] = {}
+        for item in self.ruled_out:
+            for key, count, length, pressure in item.designs:
+                groups = [Group(item.sheet.duty, item.sheet.part, count, *pair) for pair in self.parts]
+                groups.sort(key=lambda group: -group.conductance)
+                for group in groups[:_FASTEST]:
+                    self.bench.compile(group)
+                    jobs.setdefault(key, []).append(Design(group, length, pressure))
+        self.bench.run_ahead([each for designs in jobs.values() for each in designs], (_TRIED, _TRIED))
+        for key, designs in jobs.items():
+            for figures in map(self.bench.run, designs):
+                arrives = figures.time is not None and figures.holds
+                late = max(times_over(figures, self.task).values(), default=0.0) if arrives else np.inf
+                self.lateness[key] = min(self.lateness.get(key, np.inf), late)
 
     def _judged(self) -> tuple[list[Trial], list[Failed]]:
         """The best trial of each group that fulfils the task, and the nearest trial of each other group.

@@ -31,6 +31,7 @@ LimitName = Literal[
 _LONGEST_LIFE, _LIFE_DECADES = 1e7, 2.0
 _NO_FORCE = 1e-9  # N
 #: Margin of a quantity that has no limit.
+HAIR = 1e-9  # a margin is kept down to this far below zero: rounding
 AMPLE = 1e3
 
 

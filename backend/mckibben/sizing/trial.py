@@ -14,10 +14,9 @@ from mckibben.sizing.catalogue import Design, alike_designs
 from mckibben.sizing.prepared import Figures
 from mckibben.sizing.side_by_side import Case
 from mckibben.sizing.spread import weak
-from mckibben.sizing.statics import AMPLE, LimitName, Rest, at_rest, margins
+from mckibben.sizing.statics import AMPLE, HAIR, LimitName, Rest, at_rest, margins
 from mckibben.sizing.task import Task
 
-_HAIR = 1e-9  # a margin is kept down to this far below zero: rounding
 _SOFT = ("force", "stiffness", "time", "time_down", "cycle_time")
 # Margin to each limit of `_SOFT`, so that manufacturing tolerances do not break it.
 _KEPT = 0.08
@@ -68,7 +67,7 @@ class Trial:
     @property
     def keeps_limits(self) -> bool:
         """Whether every limit is kept."""
-        return self.figures.time is not None and self.figures.holds and min(self.margins.values()) >= -_HAIR
+        return self.figures.time is not None and self.figures.holds and min(self.margins.values()) >= -HAIR
 
     @property
     def air(self) -> float:

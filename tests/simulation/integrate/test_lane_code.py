@@ -9,6 +9,7 @@ import pytest
 import symengine as se
 
 from mckibben.simulation.integrate.lane_code import lane_code
+from mckibben.simulation.integrate.machine_code import machine_code
 from tests.simulation.integrate.test_machine_code import EXPRESSIONS, X, Y
 
 WIDTHS = (2, 4, 8)
@@ -51,6 +52,32 @@ def test_pow_loses_no_more_than_its_exponent_takes(lanes):
     exact = x.astype(np.longdouble) ** y
     size = np.abs(y * np.log(x))
     assert np.all(np.abs(evaluated(X**Y, x, y, lanes) / exact - 1) < 3e-15 + 3e-16 * size)
+
+
+@pytest.mark.parametrize("lanes", [1, *WIDTHS])
+@pytest.mark.parametrize("used", [(), (1,), (0, 1)])
+def test_powers_with_an_exponent_of_0_are_1_whatever_they_are_of(lanes, used):
+    """Constants of a run are exponents of effects, one for each lane; where all are 0 none is computed."""
+    a, b = se.Symbol("c_0"), se.Symbol("c_1")
+    logarithms = a * se.log(X) + b * se.log(1 + X**2)
+    expressions = [X**a, se.exp(logarithms), a * X ** (a - 1), se.exp(logarithms) * X + X**a, se.exp(X * a)]
+    x = np.linspace(0.5, 3.0, lanes)
+    constants = np.zeros((2, lanes))
+    for number in used:
+        constants[number, -1] = 0.7 + number  # in one of the lanes
+    if not used:
+        x[0] = 0.0  # of which there is no logarithm
+    code = {"f": ([X, a, b], expressions)}
+    given = np.vstack([x, constants])
+    if lanes == 1:
+        found = machine_code(code)["f"](given[:, 0])[:, None]
+    else:
+        found = lane_code(code, lanes=lanes)["f"](given)
+    p, q = constants
+    power = x**p * (1.0 + x**2) ** q
+    derived = np.divide(p * x**p, x, out=np.zeros(lanes), where=p != 0.0)
+    expected = [x**p, power, derived, power * x + x**p, np.exp(x * p)]
+    assert found == pytest.approx(np.array(expected), rel=1e-13)
 
 
 QUOTIENTS = [X / Y, se.sqrt(se.Abs(X)), Y / X, se.sqrt(se.Abs(Y)), 1 / X]

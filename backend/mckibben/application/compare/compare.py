@@ -48,7 +48,13 @@ from mckibben.application.measurement.specimen_result import (
     specimen_results,
 )
 from mckibben.application.measurement.summary import UnreadColumn
-from mckibben.application.muscle_summary import GeometrySummary, Notice, geometry_of, start_notices
+from mckibben.application.muscle_summary import (
+    GeometrySummary,
+    Notice,
+    curve_fit_notices,
+    geometry_of,
+    start_notices,
+)
 from mckibben.facts.comparison import CHECK, COMPARISON, RESIDUAL, error_scale
 from mckibben.facts.result import Number, result_class
 from mckibben.identification.diagnose.judged import judged_comparison
@@ -345,7 +351,7 @@ def compared_whole(
         validation=validation,
         model=ModelDocument(question.effect_document(comparison.fit_model)),
         messages=messages,
-        flags=start_notices(start),
+        flags=[*start_notices(start), *curve_fit_notices(question.curve_fit)],
         rmse_beyond_accuracy=comparison.rmse_beyond_accuracy,
         experiment=with_accepted(common_experiment(question), accepted, comparison.fit_model),
         unread=question.unread,

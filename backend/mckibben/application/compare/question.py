@@ -81,6 +81,11 @@ class ModelQuestion:
         return self.specimens.points
 
     @property
+    def curve_fit(self) -> str:
+        """What the drive was fitted to, with parts that do not exist; "" of a drive, or without one."""
+        return "" if self.drive is None else self.drive.curve_fit
+
+    @property
     def drive(self) -> Drive | None:
         """Drive of the first measurement, if it is transient."""
         return self.specimens.each[0].drive

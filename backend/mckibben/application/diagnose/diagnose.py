@@ -53,7 +53,7 @@ from mckibben.application.measurement.specimen_result import (
     specimen_results,
 )
 from mckibben.application.model.saved import drive_of_model
-from mckibben.application.muscle_summary import geometry_of
+from mckibben.application.muscle_summary import curve_fit_notices, geometry_of
 from mckibben.documents.studio import Studio
 from mckibben.identification.diagnose.diagnosis import FEWEST_VALUES, Diagnosis
 from mckibben.identification.diagnose.diagnosis import diagnose as search_effects
@@ -279,6 +279,7 @@ def _result(
             *question.unread_messages,
             *beyond(question.envelope, envelope),
             *question.points.measurement.messages,
+            *(str(notice) for notice in curve_fit_notices(question.curve_fit)),
             *data.notes,
             *diagnosis.messages,
             *start_messages(diagnosis.fit),

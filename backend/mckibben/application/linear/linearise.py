@@ -21,6 +21,8 @@ from mckibben.application.linear.result import (
     point_of,
 )
 from mckibben.application.muscle_summary import curve_fit_notices
+from mckibben.application.run.drive_run import run_drive
+from mckibben.application.run.simulate import POINTS, result_of
 from mckibben.documents.drive_reading import AnnotatedDrive
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.units import si
@@ -33,9 +35,13 @@ from mckibben.simulation.linear.response import eigenvalues, frequencies_for
 from mckibben.simulation.linear.sweep import SWEPT, DescribingPoint, describing_points
 from mckibben.simulation.linear.trials import Goals
 from mckibben.simulation.outcome import Watch
+from mckibben.simulation.timing.evaluation import grid_of
 
 SHARES = (0.01, 0.05, 0.2)  # amplitudes of a sweep: of the full command, of the tension of the muscle
 MOST_AMPLITUDES = 6
+_BEYOND = "the loop holds for small motions about its operating point; the run moves beyond them"
+_ELSEWHERE = "the loop is that of its operating point; the run is elsewhere, or friction or a stop holds it"
+_MOST_SAMPLES = 100_000  # of a run beside the loop
 _SWEPT_FREQUENCIES = 10
 _SWEEPABLE = ("position", "velocity", "pressure", "force", "mass_flow", "position_reading")
 
@@ -118,7 +124,9 @@ def _answer(question: LinearQuestion, linear: Linearisation, watch: Watch) -> Li
         points = _swept(question, linear, watch, notes)
         loop = loop_found = None
         if drive.controller is not None and linear.point.on_stop is None:
-            loop = loop_result(linear, drive.controller)
+            loop = loop_result(
+                linear, drive.controller, lambda stable: _run_beside(question.annotated, watch, stable=stable)
+            )
         if question.goals is not None:
             loop_found = design(linear, question.goals, watch)
     ports = {port.name: port for port in (*linear.primary.inputs, *linear.primary.outputs)}
@@ -138,6 +146,22 @@ def _answer(question: LinearQuestion, linear: Linearisation, watch: Watch) -> Li
         design=None if loop_found is None else design_result(loop_found),
         notes=notes,
     )
+
+
+def _run_beside(annotated: AnnotatedDrive, watch: Watch, *, stable: bool) -> str | None:
+    """What a run with the gains of the loop does, and why it differs from what the loop promises."""
+    drive = annotated.drive
+    if drive.controller is None or drive.reference is None:
+        return None
+    if drive.duration > _MOST_SAMPLES * drive.controller.sample_time:
+        return None
+    grid = grid_of(duration=drive.duration, begin=0.0, end=drive.duration, points=POINTS)
+    verdict = result_of(annotated, grid, run_drive(annotated, grid, watch)).verdict
+    swings = verdict.state in ("swings", "unstable")
+    if verdict.state is None or swings != stable:
+        return verdict.sentence
+    why = _BEYOND if stable else _ELSEWHERE
+    return f"{verdict.sentence} This differs from the loop: {why}."
 
 
 def _swept(

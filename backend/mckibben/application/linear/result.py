@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from typing import ClassVar
 
@@ -147,6 +148,10 @@ class LoopResult:
     """The controller of the drive."""
     margins: Margins
     """Stability and margins."""
+    run: str | None
+    """What a run of the drive with these gains does, and why where the loop promises something else; None of
+    a run of very many samples, which is not made.
+    """
     frequency: FiniteSeries
     gain: Series
     phase: Series
@@ -376,14 +381,24 @@ def controller_result(controller: PidController) -> ControllerResult:
     )
 
 
-def loop_result(linear: Linearisation, controller: PidController) -> LoopResult:
-    """The loop of a controller with the primary model."""
+def loop_result(
+    linear: Linearisation, controller: PidController, stands_beside: Callable[[bool], str | None]
+) -> LoopResult:
+    """The loop of a controller with the primary model.
+
+    Args:
+        linear: the linear view.
+        controller: of the drive.
+        stands_beside: what a run says, of whether the loop is stable.
+    """
     axis = frequencies_for(linear.primary)
     frequency = axis[axis < 0.4999 / controller.sample_time]
     loop, closed = loop_response(linear.primary, controller, frequency)
+    found = margins(linear.primary, controller, axis)
     return LoopResult(
         controller=controller_result(controller),
-        margins=margins(linear.primary, controller, axis),
+        margins=found,
+        run=stands_beside(found.stable),
         frequency=frequency,
         gain=np.abs(loop),
         phase=phase_of(linear.primary, COMMAND.name, READING.name, frequency, loop),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass
 from typing import ClassVar
 
@@ -36,7 +36,7 @@ from mckibben.application.run.verdict import RunVerdict, verdict_of
 from mckibben.documents.drive_reading import AnnotatedDrive
 from mckibben.facts.comparison import CHANNELS
 from mckibben.facts.figure import Figure, Group
-from mckibben.facts.result import Booleans, FiniteSeries, Number, Series, result_class
+from mckibben.facts.result import Booleans, Deferring, FiniteSeries, Number, Series, once, result_class
 from mckibben.facts.run import JOINT, RUN, curve_fit_of
 from mckibben.measurement.reading.conditions import COMMAND_BEFORE, IGNORE
 from mckibben.physics.drive_terms import COUNTER
@@ -54,6 +54,7 @@ from mckibben.simulation.timing.evaluation import (
     Grid,
     choked_of,
     grid_of,
+    of_figures,
     stops_of,
     timing_of,
     trace_of,
@@ -95,19 +96,25 @@ class JointMotion:
     stiffness_range: tuple[Number, Number]
 
 
-def joint_of(run: Run, rows: Array) -> JointMotion | None:
-    """Angle, torque and stiffness of a pair's pulley; the stiffness at constant pressures."""
+def joint_of(run: Run, rows: Array, figures: Run) -> JointMotion | None:
+    """Angle, torque and stiffness of a pair's pulley; the stiffness at constant pressures.
+
+    Args:
+        run: the run.
+        rows: of the result.
+        figures: the run at the times of its figures.
+    """
     drive = run.drive
     if drive.pulley_radius is None:
         return None
     radius = drive.pulley_radius
     counter = run.outputs[f"force{COUNTER}"][rows]
-    wanted = None if drive.stiffness is None else np.asarray(drive.stiffness.reference.value(run.time))
-    error, whole = None, None
-    if wanted is not None and len(run.time) > 1:
-        whole = _stiffness(run, slice(None))
-        square = (whole - wanted) ** 2
-        error = float(np.sqrt(np.trapezoid(square, run.time) / np.ptp(run.time)))
+    error, wanted = None, None
+    if drive.stiffness is not None:
+        wanted = np.asarray(drive.stiffness.reference.value(run.time[rows]))
+        if len(figures.time) > 1:
+            square = (_stiffness(figures, slice(None)) - drive.stiffness.reference.value(figures.time)) ** 2
+            error = float(np.sqrt(np.trapezoid(square, figures.time) / np.ptp(figures.time)))
     flows = (run.outputs[f"{name}_flow{COUNTER}"][rows] for name in ("mass", "supply", "exhaust"))
     if run.counter_command is not None:
         command = run.counter_command.value(run.time)[rows]
@@ -116,7 +123,7 @@ def joint_of(run: Run, rows: Array) -> JointMotion | None:
         command = 2.0 * drive.common_command - np.asarray(own.value(run.time))[rows]
     inflow, supplied, vented = flows
     angle = run.states["stroke"][rows] / radius
-    stiffness = _stiffness(run, rows) if whole is None else whole[rows]
+    stiffness = _stiffness(run, rows)
     torque = radius * (run.outputs["force"][rows] - counter)
     return JointMotion(
         angle=angle,
@@ -132,7 +139,7 @@ def joint_of(run: Run, rows: Array) -> JointMotion | None:
         angle_reference=None
         if drive.reference is None
         else np.asarray(drive.reference.value(run.time))[rows] / radius,
-        stiffness_reference=None if wanted is None else wanted[rows],
+        stiffness_reference=wanted,
         stiffness_error=error,
         angle_range=_range(angle),
         torque_range=_range(torque),
@@ -219,7 +226,7 @@ class DriveBounds(MakerLimits):
 
 
 @result_class
-class SimulationResult:
+class SimulationResult(Deferring):
     """Columns over time, SI; pressures gauge, positions positive = muscle shorter."""
 
     FIGURES: ClassVar = RUN.name
@@ -344,15 +351,22 @@ def result_of(
     *,
     static: bool = False,
 ) -> SimulationResult:
-    """The complete result of a run."""
+    """The complete result of a run; each field is computed when it is first read."""
     drive, out, states = run.drive, run.outputs, run.states
-    rows = grid.rows[grid.rows < len(run.time)]
+    rows = grid.rows if len(run.time) == len(grid.time) else grid.rows[grid.rows < len(run.time)]
     lever, rest = drive.load.lever_ratio, drive.muscle.nominal_length
-    contraction = states["stroke"] / rest + drive.precontraction
-    command = drive.command if drive.reference is None else run.command
-    reference = None if drive.reference is None else drive.reference.value(run.time)[rows]
-    trace = trace_of(run)
-    table, follows = timing_of(drive, trace), tracking_of(run, trace)
+    message = None if run.outcome is Outcome.COMPLETED else run.outcome.advice()
+
+    # What several fields rest on; figures are of the same times whatever rows are asked for.
+    figures = once(lambda: of_figures(run, grid))
+    trace = once(lambda: trace_of(figures()))
+    table = once(lambda: timing_of(drive, trace()))
+    follows = once(lambda: tracking_of(figures(), trace()))
+    between = once(lambda: held_interval(drive))
+    contraction = once(lambda: states["stroke"] / rest + drive.precontraction)
+
+    def at_rows(name: str, of: Mapping[str, Array] = out, over: float = 1.0) -> Callable[[], Array]:
+        return lambda: of[name][rows] if over == 1.0 else of[name][rows] / over
 
     def gauge(name: str) -> Array | None:
         return states[name][rows] - drive.ambient_pressure if name in states else None
@@ -368,86 +382,102 @@ def result_of(
             direction=direction,
         )
 
-    between = held_interval(drive)
-    message = None if run.outcome is Outcome.COMPLETED else run.outcome.advice()
-    notes = dict(annotated.notes) | {f"timing.{name}": why for name, why in table.notes.items()}
-    if len(run.events) >= MOST_EVENTS:
-        notes["events"] = f"of very many events in a short time only the first {MOST_EVENTS} are listed"
-    if drive.start_reached and between is None:
-        notes["start.reached"] = "no dry friction holds the load at the start: it rests at one position"
-    if follows is not None:
-        notes |= {f"tracking.{name}": why for name, why in follows.notes.items()}
-    return SimulationResult(
-        time=run.time[rows],
-        position=states["stroke"][rows] / lever,
-        velocity=states["speed"][rows] / lever,
-        acceleration=out["acceleration"][rows] / lever,
-        pressure=run.pressure[rows],
-        force=out["force"][rows],
-        mass_flow=out["mass_flow"][rows],
-        command=command.value(run.time)[rows],
-        opening=out["opening"][rows],
-        reference=reference,
-        supply_flow=out["supply_flow"][rows],
-        exhaust_flow=out["exhaust_flow"][rows],
-        tube_pressure=gauge("tube_pressure"),
-        regulator_pressure=gauge("regulator_pressure"),
-        volume=out["volume"][rows],
-        diameter=out["diameter"][rows],
-        length=rest * (1.0 - contraction[rows]),
-        contraction=contraction[rows],
-        static_filling=at_rest(FILLING),
-        static_venting=at_rest(VENTING),
-        load_force=out["external_force"][rows],
-        temperature=out["gas_temperature"][rows],
-        contact=out["contact"][rows] != 0.0,
-        slack=states["length"][rows] > rest * (1.0 - contraction[rows]) + _SLACK,
-        stuck=_stuck(run)[rows],
-        friction=out["friction"][rows],
-        friction_share=out["friction_share"][rows],
-        events=events_of_run(run),
-        rest=rest_of_run(run) if run.outcome is Outcome.COMPLETED else None,
-        start=StartPosition(
+    def supplied() -> float | None:
+        found = trace()
+        return None if found is None else float(np.ptp(found.supplied)) / ANR_DENSITY
+
+    return SimulationResult.deferred(
+        time=lambda: run.time[rows],
+        position=at_rows("stroke", states, lever),
+        velocity=at_rows("speed", states, lever),
+        acceleration=at_rows("acceleration", over=lever),
+        pressure=lambda: gauge("pressure"),
+        force=at_rows("force"),
+        mass_flow=at_rows("mass_flow"),
+        command=lambda: (drive.command if drive.reference is None else run.command).value(run.time[rows]),
+        opening=at_rows("opening"),
+        reference=lambda: None if drive.reference is None else drive.reference.value(run.time[rows]),
+        supply_flow=at_rows("supply_flow"),
+        exhaust_flow=at_rows("exhaust_flow"),
+        tube_pressure=lambda: gauge("tube_pressure"),
+        regulator_pressure=lambda: gauge("regulator_pressure"),
+        volume=at_rows("volume"),
+        diameter=at_rows("diameter"),
+        length=lambda: rest * (1.0 - contraction()[rows]),
+        contraction=lambda: contraction()[rows],
+        static_filling=lambda: at_rest(FILLING),
+        static_venting=lambda: at_rest(VENTING),
+        load_force=at_rows("external_force"),
+        temperature=at_rows("gas_temperature"),
+        contact=lambda: out["contact"][rows] != 0.0,
+        slack=lambda: states["length"][rows] > rest * (1.0 - contraction()[rows]) + _SLACK,
+        stuck=lambda: _stuck(run)[rows],
+        friction=at_rows("friction"),
+        friction_share=at_rows("friction_share"),
+        events=lambda: events_of_run(run),
+        rest=lambda: rest_of_run(run) if run.outcome is Outcome.COMPLETED else None,
+        start=lambda: StartPosition(
             run.start.stroke / lever,
             run.start.stroke / rest + drive.precontraction,
             run.start.why.value,
-            *(end if end is None else end / lever for end in between or (None, None)),
+            *(end if end is None else end / lever for end in between() or (None, None)),
         ),
-        gas=drive.gas_closure,
-        readings=_readings(run, rows),
-        joint=joint_of(run, rows),
-        interval=interval,
-        choked=choked_of(run),
+        gas=lambda: drive.gas_closure,
+        readings=lambda: _readings(run, rows),
+        joint=lambda: joint_of(run, rows, figures()),
+        interval=lambda: interval,
+        choked=lambda: choked_of(figures()),
         timing=table,
         tracking=follows,
-        verdict=verdict_of(table, follows, run.outcome, message),
-        outcome=run.outcome.label,
-        message=message,
-        wall_ms=run.wall_seconds * 1e3,
-        steps=run.steps,
-        flags=[
-            *start_notices(annotated.start),
-            *curve_fit_notices(drive.curve_fit),
-            *_part_notices(annotated),
-            *limit_notices(_crossed(run)),
-            *pressure_notices(_stated_pressures(annotated)),
-            *suspended_notices(annotated.start, drive.load),
-            *stretch_notices(annotated.start, float(np.nanmin(contraction, initial=0.0)), "stops"),
-            *temperature_notices(annotated.start, drive.temperature, "gas.temperature"),
-            *valve_notices(annotated),
-            *use_notices(annotated.start.fit, use_of_run(run)),
-        ],
-        notes=notes,
-        limits=_bounds(annotated),
-        geometry=geometry_of(annotated.start),
-        model=settings_of(drive.model, annotated.start),
-        weight=drive.load.mass * GRAVITY * float(np.sin(drive.load.inclination)),
-        spring=drive.load.spring,
-        lever_ratio=drive.load.lever_ratio,
-        duration=drive.duration,
-        supplied_volume_anr=None if trace is None else float(np.ptp(trace.supplied)) / ANR_DENSITY,
-        conditions=_conditions(annotated),
+        verdict=lambda: verdict_of(table(), follows(), run.outcome, message),
+        outcome=lambda: run.outcome.label,
+        message=lambda: message,
+        wall_ms=lambda: run.wall_seconds * 1e3,
+        steps=lambda: run.steps,
+        flags=lambda: _flags(annotated, figures()),
+        notes=lambda: _notes(annotated, run, table(), follows(), held=between() is not None),
+        limits=lambda: _bounds(annotated),
+        geometry=lambda: geometry_of(annotated.start),
+        model=lambda: settings_of(drive.model, annotated.start),
+        weight=lambda: drive.load.mass * GRAVITY * float(np.sin(drive.load.inclination)),
+        spring=lambda: drive.load.spring,
+        lever_ratio=lambda: lever,
+        duration=lambda: drive.duration,
+        supplied_volume_anr=supplied,
+        conditions=lambda: _conditions(annotated),
     )
+
+
+def _flags(annotated: AnnotatedDrive, run: Run) -> list[Notice]:
+    """Remarks on a run."""
+    drive = run.drive
+    contraction = run.states["stroke"] / drive.muscle.nominal_length + drive.precontraction
+    return [
+        *start_notices(annotated.start),
+        *curve_fit_notices(drive.curve_fit),
+        *_part_notices(annotated),
+        *limit_notices(_crossed(run)),
+        *pressure_notices(_stated_pressures(annotated)),
+        *suspended_notices(annotated.start, drive.load),
+        *stretch_notices(annotated.start, float(np.nanmin(contraction, initial=0.0)), "stops"),
+        *temperature_notices(annotated.start, drive.temperature, "gas.temperature"),
+        *valve_notices(annotated),
+        *(use_notices(fit, use_of_run(run)) if (fit := annotated.start.fit) is not None else ()),
+    ]
+
+
+def _notes(
+    annotated: AnnotatedDrive, run: Run, table: TimingTable, follows: Tracking | None, *, held: bool
+) -> dict[str, str]:
+    """Field -> remark; ``held``: whether dry friction holds the load at the start."""
+    notes = dict(annotated.notes) | {f"timing.{name}": why for name, why in table.notes.items()}
+    if len(run.events) >= MOST_EVENTS:
+        notes["events"] = f"of very many events in a short time only the first {MOST_EVENTS} are listed"
+    if run.drive.start_reached and not held:
+        notes["start.reached"] = "no dry friction holds the load at the start: it rests at one position"
+    if follows is not None:
+        notes |= {f"tracking.{name}": why for name, why in follows.notes.items()}
+    return notes
 
 
 def _stated_pressures(annotated: AnnotatedDrive) -> dict[str, float]:

@@ -8,7 +8,7 @@ from types import MappingProxyType
 from typing import Literal
 
 from mckibben.facts.result import result_class
-from mckibben.facts.timing import NO_STEP, PHASES
+from mckibben.facts.timing import PHASES
 from mckibben.simulation.outcome import Outcome
 from mckibben.simulation.timing.table import MotionState, PhaseFigures, TimingTable
 from mckibben.simulation.timing.tracking import GOOD, FollowState, Tracking
@@ -65,7 +65,8 @@ def verdict_of(
     phases: dict[str, PhaseFigures] = {name: getattr(timing, name) for name in PHASES}
     ended = {name: phase for name, phase in phases.items() if phase.state is not None}
     if not ended:
-        return RunVerdict(None, None, f"Nothing is judged: {NO_STEP}.", {})
+        why = "; ".join(f"{words}: {timing.notes[f'{name}.rise_time']}" for name, words in PHASES.items())
+        return RunVerdict(None, None, f"Nothing is judged. {why[:1].upper()}{why[1:]}.", {})
     state = min((phase.state for phase in ended.values() if phase.state), key=_WORST_FIRST.index)
     sentence = "; ".join(f"{PHASES[name]}: the load {phase.motion}" for name, phase in ended.items())
     evidence = {

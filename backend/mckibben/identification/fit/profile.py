@@ -15,7 +15,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from scipy.stats import chi2
+from scipy.special import gammaincinv
 
 from mckibben.facts.result import Series, result_class
 from mckibben.identification.fit.comparison import Comparison
@@ -96,7 +96,7 @@ def profile(comparison: Comparison, name: str, *, share: float = 0.95) -> Profil
     widened = _widened(best, known.index(name), stderr)
     counted = len(best.residual) if best.aside is None else int(np.count_nonzero(~best.aside))
     counted = max(counted - len(free), 1)
-    limit = float(chi2.ppf(share, 1))
+    limit = 2.0 * float(gammaincinv(0.5, share))  # of chi-squared; scipy.stats takes a second to import
     step = _FIRST * stderr if stderr else _BLIND * (target.upper - target.lower)
     middle = _Tried(at_best, best.mean_square, best.fit_model)
     found = [middle]

@@ -22,6 +22,7 @@ from mckibben.facts.units import QUANTITIES
 from mckibben.report.summary import Summary, Table, figure, shown
 from mckibben.simulation.linear.loop import Margins
 
+RUN_BESIDE = "a run of the drive with these gains"
 _GAINS = ("kp", "ki", "kd", "feed_forward")
 _OF_STEPS = ("overshoot", "settling", "rise", "saturated")
 _OF_POLES = ("frequency", "oscillation_frequency", "damping", "time_constant")
@@ -42,6 +43,7 @@ def summary_of(result: LinearResult, name: str) -> Summary:
         *sweep_table(result),
         *design_tables(result),
         *dead_band(result),
+        *(f"{RUN_BESIDE}: {loop.run}" for loop in [result.loop] if loop is not None and loop.run),
         *(f"not in the model: {text}" for text in result.lost),
         *result.notes,
     ]

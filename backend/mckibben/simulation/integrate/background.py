@@ -3,27 +3,37 @@
 from __future__ import annotations
 
 import threading
-import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Generic, TypeVar
 
 Loaded = TypeVar("Loaded")
-_LONG = 2.0  # s; what is only loaded is ready before
-_under_way: dict[str, float] = {}  # name -> when it was begun, see `time.monotonic`
+_LOOK_EVERY = 0.1  # s
+_compiled: list[str] = []  # names of what is being compiled
 _tell: list[Callable[[], None]] = []
 
 
 def tell_who_waits(tell: Callable[[], None]) -> None:
-    """Call a function whenever somebody waits for longer than loading alone takes."""
+    """Call a function whenever somebody waits for a compilation."""
     _tell.append(tell)
 
 
-def is_compiling() -> bool:
-    """Whether something is being compiled for this machine: it is loaded for longer than loading alone takes.
+@contextmanager
+def compiling(name: str) -> Iterator[None]:
+    """Something is compiled within: nothing is kept of it.
 
     That happens once after an installation, for about 20 s of a core; people who wait for it want to know.
     """
-    return any(time.monotonic() - begun > _LONG for begun in list(_under_way.values()))
+    _compiled.append(name)
+    try:
+        yield
+    finally:
+        _compiled.remove(name)
+
+
+def is_compiling() -> bool:
+    """Whether something is being compiled for this machine."""
+    return bool(_compiled)
 
 
 class Background(Generic[Loaded]):
@@ -54,19 +64,16 @@ class Background(Generic[Loaded]):
         Raises:
             RuntimeError: it cannot be loaded; the thread has printed why.
         """
-        thread = self.warm()
-        thread.join(_LONG)
-        if thread.is_alive():
-            for tell in _tell:
-                tell()
-            thread.join()
+        thread, told = self.warm(), False
+        while thread.is_alive():
+            thread.join(_LOOK_EVERY)
+            if is_compiling() and not told:
+                told = True
+                for tell in _tell:
+                    tell()
         if self._loaded is None:
             raise RuntimeError(f"{self._name} cannot be loaded")
         return self._loaded
 
     def _run(self) -> None:
-        _under_way[self._name] = time.monotonic()
-        try:
-            self._loaded = self._load()
-        finally:
-            del _under_way[self._name]
+        self._loaded = self._load()

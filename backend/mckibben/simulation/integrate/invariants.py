@@ -19,6 +19,14 @@ _BUILT = {
 }
 
 
+_PREFIX = "c_"
+
+
+def is_invariant(expression: Any) -> bool:
+    """Whether an expression is a symbol that `Invariants` has made."""
+    return bool(expression.is_Symbol) and str(expression).startswith(_PREFIX)
+
+
 class Invariants:
     """Rewrites expressions: each maximal subexpression of constants only is replaced by a new symbol.
 
@@ -45,7 +53,7 @@ class Invariants:
         build = _BUILT.get(type(expression).__name__)
         if build is not None:  # a condition is not a number and stays
             return build(*(self._symbol(part) for part in expression.args))
-        return self.values.setdefault(expression, se.Symbol(f"c_{len(self.values)}"))
+        return self.values.setdefault(expression, se.Symbol(f"{_PREFIX}{len(self.values)}"))
 
     def _rewritten(self, expression: Any) -> tuple[Any, bool]:
         """The expression with its constant parts replaced, and whether the expression itself is constant."""

@@ -64,6 +64,11 @@ class LaneWriter(Writer):
     def _number(self, value: float) -> str:
         return f"splat (double {number(value)})"
 
+    def _any_lane(self, condition: str) -> str:
+        full = f"llvm.vector.reduce.or.v{self.lanes}i1"
+        self.declared.add(f"declare i1 @{full}({self.truth})")
+        return self._new(f"call i1 @{full}({self.truth} {condition})")
+
     def _truth(self, value: bool) -> str:
         return f"splat (i1 {'true' if value else 'false'})"
 

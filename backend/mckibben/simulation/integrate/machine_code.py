@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 import symengine as se
 
+from mckibben.simulation.integrate.invariants import is_invariant
 from mckibben.simulation.kept_code import keep, kept
 
 # Function of symengine -> function for LLVM to call; those without a dot are from the C library.
@@ -189,6 +190,7 @@ class Writer:
         self._lines: list[str] = []
         self._known: dict[Any, str] = {}
         self._conditions: dict[Any, str] = {}
+        self._block = "begin"  # that the lines are in
         self.declared: set[str] = set()
 
     def function(self, name: str, results: Sequence[Any]) -> str:
@@ -197,7 +199,7 @@ class Writer:
             value = self._value(result)
             place = self._new(f"getelementptr {self.real}, ptr %out, i64 {index}")
             self._lines.append(f"store {self.real} {value}, ptr {place}")
-        body = "\n".join(self._lines)
+        body = "\n".join(["begin:", *self._lines])
         return f"define void @{name}(ptr noalias %out, ptr noalias %in, ptr %data) {{\n{body}\nret void\n}}"
 
     def _new(self, text: str) -> str:
@@ -271,7 +273,19 @@ class Writer:
         return value
 
     def _product(self, factors: Sequence[Any]) -> str:
-        """A product with at most one division, besides those of reciprocals that serve several times."""
+        """A product with at most one division, besides those of reciprocals that serve several times.
+
+        The derivative of a power has its exponent as a factor: where such a constant of the run is 0, the
+        power is not computed.
+        """
+        gate = next(filter(is_invariant, factors), None)
+        if gate is None or not any(map(self._is_own_power, factors)):
+            return self._whole_product(factors)
+        for factor in factors:
+            self._value(factor.args[0] if self._is_own_power(factor) else factor)
+        return self._unless_zero([gate], lambda: self._whole_product(factors), 0.0)
+
+    def _whole_product(self, factors: Sequence[Any]) -> str:
         above, below = [], []
         for factor in factors:
             base, exponent = factor.args if type(factor).__name__ == "Pow" else (factor, None)
@@ -284,7 +298,8 @@ class Writer:
 
     def _power(self, base: Any, exponent: Any) -> str:
         if base == se.E:
-            return self._call("llvm.exp.f64", self._value(exponent))
+            gates = self._gates(exponent)
+            return self._unless_zero(gates, lambda: self._call("llvm.exp.f64", self._value(exponent)), 1.0)
         if exponent.is_Number:
             power = float(exponent)
             if power < 0.0:
@@ -296,7 +311,55 @@ class Writer:
                 if root is None or raised is None:
                     return root or raised or self._number(1.0)
                 return self._binary("fmul", raised, root)
-        return self._call("llvm.pow.f64", self._value(base), self._value(exponent))
+        given = self._value(base), self._value(exponent)
+        return self._unless_zero(self._gates(exponent), lambda: self._call("llvm.pow.f64", *given), 1.0)
+
+    def _gates(self, exponent: Any) -> list[Any]:
+        """Constants of a run, one a factor of each term of an exponent; none where a term has none.
+
+        Such are the exponents of effects: 0 where the term is not in use, and the power is 1. What the
+        logarithms in it are of is computed here, so that others may share it.
+        """
+        exponent = self._shared.get(exponent, exponent)
+        kind = type(exponent).__name__
+        if kind == "Add":
+            found = [self._gates(term) for term in exponent.args]
+            return list(dict.fromkeys(gate for gates in found for gate in gates)) if all(found) else []
+        factors = exponent.args if kind == "Mul" else (exponent,)
+        gate = next((each for each in factors if is_invariant(each)), None)
+        if gate is None:
+            return []
+        for factor in factors:
+            meant = self._shared.get(factor, factor)
+            self._value(meant.args[0] if type(meant).__name__ == "log" else factor)
+        return [gate]
+
+    def _is_own_power(self, factor: Any) -> bool:
+        """Whether a factor is a power that takes long and serves this product alone: no other shares it."""
+        return type(factor).__name__ == "Pow" and not factor.args[1].is_Number and factor not in self._known
+
+    def _unless_zero(self, gates: Sequence[Any], compute: Callable[[], str], otherwise: float) -> str:
+        """A value, which is not computed where all gates are 0, in all lanes, but known."""
+        if not gates:
+            return compute()
+        zero = self._number(0.0)
+        used = [self._any_lane(self._comparison("une", self._value(gate), zero)) for gate in gates]
+        some = used[0]
+        for each in used[1:]:
+            some = self._new(f"or i1 {some}, {each}")
+        before, number = self._block, len(self._lines)
+        inside, behind = f"inside{number}", f"behind{number}"
+        self._lines += [f"br i1 {some}, label %{inside}, label %{behind}", f"{inside}:"]
+        known, conditions, self._block = dict(self._known), dict(self._conditions), inside
+        value, last = compute(), self._block
+        self._known, self._conditions = known, conditions  # what is computed inside is not to be had behind
+        self._lines += [f"br label %{behind}", f"{behind}:"]
+        self._block = behind
+        return self._new(f"phi {self.real} [ {value}, %{last} ], [ {self._number(otherwise)}, %{before} ]")
+
+    def _any_lane(self, condition: str) -> str:
+        """Whether a condition holds in any lane."""
+        return condition
 
     def _reciprocal(self, base: Any, exponent: Any) -> str:
         """A negative power; divisions are slow, so all negative powers of a base share one."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 import pickle
 import sys
 from collections.abc import Callable
+from contextlib import ExitStack
 from pathlib import Path
 from types import ModuleType
 from typing import Any, Generic, TypeVar
@@ -19,6 +20,7 @@ from numba import njit
 from numba.core.caching import _Cache
 from numba.core.compiler import CompileResult
 
+from mckibben.simulation.integrate.background import compiling
 from mckibben.simulation.kept_code import keep, kept
 
 Compiled = TypeVar("Compiled", bound=Callable[..., Any])
@@ -29,6 +31,7 @@ class _KeptCode(_Cache):
 
     def __init__(self, what: tuple[object, ...]) -> None:
         self._what = (*what, numba.__version__, llvmlite.__version__, sys.version)
+        self.missing: Callable[[], object] = lambda: None  # called where nothing is kept
 
     @property
     def cache_path(self) -> None:
@@ -40,6 +43,8 @@ class _KeptCode(_Cache):
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         target_context.refresh()
         code = kept(self._key(sig, target_context.codegen()))
+        if code is None:
+            self.missing()
         return None if code is None else CompileResult._rebuild(target_context, *pickle.loads(code))
 
     def save_overload(self, sig: Any, data: Any) -> None:
@@ -72,7 +77,9 @@ class Kernel(Generic[Compiled]):
     def compiled(self) -> Compiled:
         """The compiled function: kept since the installation or an earlier process, or compiled now."""
         if not self.dispatcher.signatures:
-            self.dispatcher.compile(self.signature)
+            with ExitStack() as stack:
+                self.dispatcher._cache.missing = lambda: stack.enter_context(compiling(self.signature))
+                self.dispatcher.compile(self.signature)
             self.dispatcher.disable_compile()
         return self.dispatcher
 

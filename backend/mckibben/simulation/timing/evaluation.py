@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import lru_cache
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache, reduce
 from math import ceil
 from typing import ClassVar, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mckibben.facts.result import result_class
 from mckibben.physics.drive_terms import COUNTER, HIGH_STOP
@@ -21,7 +22,7 @@ from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.transient import Run, constants_of, dead_times
 from mckibben.simulation.integrate.engine import SLOWEST_REBOUND
 from mckibben.simulation.timing.table import Phase, TimingTable, timing
-from mckibben.simulation.timing.trace import Impact, Trace
+from mckibben.simulation.timing.trace import REAL, Impact, Trace
 from mckibben.simulation.timing.tracking import Followed, Tracking, tracking
 
 Array = np.ndarray
@@ -37,10 +38,14 @@ _FEWEST_TRACKED = 4  # least number of rows for tracking figures
 
 @dataclass(frozen=True, slots=True)
 class Grid:
-    """Times of the integration, and which of them are rows of the result."""
+    """Times of the integration, which of them are rows of the result, and which those of its figures.
+
+    The figures of a run are those of the same times whatever rows are asked for; None = of all times.
+    """
 
     time: Array
     rows: Array
+    figures: Array | None = None
 
 
 @result_class
@@ -63,7 +68,7 @@ def time_step(duration: float) -> float:
 
 
 def grid_of(*, duration: float, begin: float, end: float, points: int, jumps: Sequence[float] = ()) -> Grid:
-    """Evenly spaced rows from begin to end within a finer grid of the whole run [s].
+    """Evenly spaced rows from begin to end, beside the times of the figures of the whole run [s].
 
     Args:
         duration: of the run.
@@ -78,27 +83,47 @@ def grid_of(*, duration: float, begin: float, end: float, points: int, jumps: Se
 @lru_cache(maxsize=32)
 def _grid_of(duration: float, begin: float, end: float, points: int, jumps: tuple[float, ...]) -> Grid:
     """`grid_of`: a drive that is run again, or with other values, has the grid that it had."""
-    step = time_step(duration)
-    finer = max(1, ceil((end - begin) / (points - 1) / step - 1e-9))
-    inner = np.linspace(begin, end, finer * (points - 1) + 1)
-    before = np.linspace(0.0, begin, ceil(begin / step), endpoint=False)
-    after = np.linspace(end, duration, ceil((duration - end) / step) + 1)[1:]
-    time = np.concatenate([before, inner, after])
-    shown = inner[::finer]
-    more = np.array([t for t in jumps if begin < t < end])
-    if 0 < len(more) <= _JUMPS * points:
-        shown, time = (_with_times(grid, more, _SAME_TIME * duration) for grid in (shown, time))
-    rows = np.searchsorted(time, shown)
-    time.flags.writeable = rows.flags.writeable = False
-    return Grid(time, rows)
+    near = _SAME_TIME * duration
+    finer = max(1, ceil(duration / _FEWEST / time_step(duration) - 1e-9))
+    figures = _with_jumps(np.linspace(0.0, duration, finer * _FEWEST + 1), jumps, _FEWEST, near)
+    shown = _with_jumps(np.linspace(begin, end, points), jumps, points, near)
+    at = _nearest(figures, shown)
+    others = shown[np.abs(figures[at] - shown) > near]
+    if not len(others):
+        figures.flags.writeable = at.flags.writeable = False
+        return Grid(figures, at)
+    time = np.sort(np.concatenate([figures, others]))
+    grid = Grid(time, _nearest(time, shown), np.searchsorted(time, figures))
+    for column in (grid.time, grid.rows, grid.figures):
+        if column is not None:
+            column.flags.writeable = False
+    return grid
 
 
-def _with_times(grid: Array, times: Array, near: float) -> Array:
-    """An ascending grid with these times, in the place of what is so near to one of them."""
-    after = np.searchsorted(times, grid)
-    neighbours = times[np.maximum(after - 1, 0)], times[np.minimum(after, len(times) - 1)]
-    beside = np.minimum(*(np.abs(grid - each) for each in neighbours)) <= near
+def _with_jumps(grid: Array, jumps: tuple[float, ...], points: int, near: float) -> Array:
+    """An ascending grid with the jumps within it, where they are few; what is so near to one is left out."""
+    times = np.array([t for t in jumps if grid[0] < t < grid[-1]])
+    if not 0 < len(times) <= _JUMPS * points:
+        return grid
+    beside = np.abs(times[_nearest(times, grid)] - grid) <= near
     return np.union1d(grid[~beside], times)
+
+
+def _nearest(grid: Array, times: Array) -> NDArray[np.intp]:
+    """Places in an ascending grid that are next to some times."""
+    after = np.minimum(np.searchsorted(grid, times), len(grid) - 1)
+    before = np.maximum(after - 1, 0)
+    return np.where(np.abs(grid[before] - times) < np.abs(grid[after] - times), before, after)
+
+
+def of_figures(run: Run, grid: Grid) -> Run:
+    """The run at the times of its figures alone."""
+    if grid.figures is None:
+        return run
+    kept = grid.figures[grid.figures < len(run.time)]
+    states = {name: column[kept] for name, column in run.states.items()}
+    outputs = {name: column[kept] for name, column in run.outputs.items()}
+    return replace(run, time=run.time[kept], states=states, outputs=outputs)
 
 
 def trace_of(run: Run) -> Trace | None:
@@ -109,9 +134,12 @@ def trace_of(run: Run) -> Trace | None:
     """
     out, lever, drive = run.outputs, run.drive.load.lever_ratio, run.drive
     suffixes = ("", COUNTER) if drive.pair else ("",)
-
     from_states = drive.polytropic_exponent is not None and "gas_mass" not in run.states
     exchanged = [_exchanged(run, suffix, from_states=from_states) for suffix in suffixes]
+
+    def total(columns: Iterable[Array]) -> Array:
+        return reduce(np.add, columns)
+
     columns = {
         "time": run.time,
         "position": run.states["stroke"] / lever,
@@ -120,28 +148,27 @@ def trace_of(run: Run) -> Trace | None:
         "pressure": run.pressure,
         "force": out["force"],
         "mass_flow": out["mass_flow"],
-        "contact": out["contact"] != 0.0,
-        "choked": _choked_side(run),
-        "supply_mass_flow": np.sum([out[f"supply_flow{suffix}"] for suffix in suffixes], axis=0),
-        "exhaust_mass_flow": np.sum([out[f"exhaust_flow{suffix}"] for suffix in suffixes], axis=0),
-        "supplied": np.sum([supplied for supplied, _ in exchanged], axis=0),
-        "vented": np.sum([vented for _, vented in exchanged], axis=0),
-        "tube_charge": np.sum([_tube_charge(run, suffix) for suffix in suffixes], axis=0),
+        "supply_mass_flow": total(out[f"supply_flow{suffix}"] for suffix in suffixes),
+        "exhaust_mass_flow": total(out[f"exhaust_flow{suffix}"] for suffix in suffixes),
+        "supplied": total(supplied for supplied, _ in exchanged),
+        "vented": total(vented for _, vented in exchanged),
+        "tube_charge": total(_tube_charge(run, suffix) for suffix in suffixes),
     }
-    usable = np.all([np.isfinite(column) for column in columns.values()], axis=0)
-    count = int(np.argmin(usable)) if not usable.all() else len(usable)
+    table = np.array([columns[name] for name in REAL])
+    usable = np.all(np.isfinite(table), axis=0)
+    count = len(usable) if usable.all() else int(np.argmin(usable))
     if count < 2:
         return None
-    columns = {name: column[:count] for name, column in columns.items()}
+    table, contact, choked = table[:, :count], (out["contact"] != 0.0)[:count], _choked_side(run)[:count]
     moving = [event for event in run.events if event.impact or abs(event.speed) > SLOWEST_REBOUND]
-    events = [event for event in moving if event.time < columns["time"][-1]]
+    events = [event for event in moving if event.time < table[0, -1]]
     impacts = tuple(
         Impact(event.time, stop_of(drive, event) / lever, event.speed / lever)
         for event in events
         if event.impact
     )
-    columns = _with_events(columns, events, run)
-    return Trace(**columns, impacts=impacts, from_states=from_states)
+    table, contact, choked = _with_events(table, contact, choked, events, run)
+    return Trace.sound(table, contact, choked, impacts=impacts, from_states=from_states)
 
 
 def stop_of(drive: Drive, event: Event) -> float:
@@ -177,19 +204,23 @@ def _tube_charge(run: Run, suffix: str) -> Array:
     return pressure * tube.volume / (_R * run.drive.temperature)
 
 
-def _with_events(columns: dict[str, Array], events: list[Event], run: Run) -> dict[str, Array]:
+def _with_events(
+    table: Array, contact: Array, choked: Array, events: list[Event], run: Run
+) -> tuple[Array, Array, Array]:
     """The columns with rows just before and just after each event."""
     instants = np.array([event.time for event in events])
     new = np.concatenate([[True], np.diff(instants) > 0.0]) if len(events) else np.zeros(0, bool)
-    inside = new & (instants > columns["time"][0])
+    inside = new & (instants > table[0, 0])
     events, instants = [event for event, keep in zip(events, inside, strict=True) if keep], instants[inside]
     if not events:
-        return columns
+        return table, contact, choked
     # A row of the instant of an event is that before it: the new rows replace it.
-    at = np.searchsorted(columns["time"], instants)
-    if (there := columns["time"][at] == instants).any():
-        columns = {name: np.delete(column, at[there]) for name, column in columns.items()}
-    time, lever = columns["time"], run.drive.load.lever_ratio
+    at = np.searchsorted(table[0], instants)
+    if (there := table[0, at] == instants).any():
+        kept = np.delete(np.arange(table.shape[1]), at[there])
+        table, contact, choked = table[:, kept], contact[kept], choked[kept]
+    columns, lever = dict(zip(REAL, table, strict=True)), run.drive.load.lever_ratio
+    time = columns["time"]
     after = np.searchsorted(time, instants)
     before = after - 1
     passed = instants - time[before]
@@ -209,17 +240,18 @@ def _with_events(columns: dict[str, Array], events: list[Event], run: Run) -> di
         "position": (here, here),
         "velocity": (speed, left),
         "acceleration": (pulling, columns["acceleration"][after]),
-        "contact": (np.zeros(len(events), bool), columns["contact"][after]),
-        "choked": (columns["choked"][before],) * 2,
     }
     rows = np.insert(np.arange(len(time)), np.repeat(after, 2), np.repeat(after, 2))
     first = after + 2 * np.arange(len(after))  # the new rows among all
-    result = {}
-    for name, column in columns.items():
-        between = column[before] * (1.0 - share) + column[after] * share
-        result[name] = column[rows]
-        result[name][first], result[name][first + 1] = known.get(name, (between, between))
-    return result
+    between, choked_before = table[:, before] * (1.0 - share) + table[:, after] * share, choked[before]
+    table, contact, choked = table[:, rows], contact[rows], choked[rows]
+    table[:, first] = table[:, first + 1] = between
+    for name, (row_before, row_after) in known.items():
+        number = REAL.index(name)
+        table[number, first], table[number, first + 1] = row_before, row_after
+    contact[first] = False
+    choked[first] = choked[first + 1] = choked_before
+    return table, contact, choked
 
 
 def stops_of(drive: Drive) -> Interval:
@@ -240,13 +272,35 @@ def phases_of(drive: Drive) -> tuple[Phase | None, Phase | None]:
     """The first fill and the vent after it; of a controlled run the reference's first rise and fall."""
     if drive.reference is None:
         command = drive.command.segments(drive.duration)
-        return _phase_of(phases(command)[0], command), _phase_of(phases(command)[1], command)
+        fill, vent = (
+            _phase_of(interval, command)
+            for interval in _begun(phases(command), command, before=drive.command.before)
+        )
+        return fill, vent
     reference = drive.reference.segments(drive.duration)
     before = np.r_[drive.reference.before, reference.end_values[:-1]]
     jump = reference.start_values - before
     trend = np.sign(np.where(jump != 0.0, jump, reference.slopes))
     found = phases(Segments(reference.times, _last_trend(trend), np.zeros(len(trend))))
     fill, vent = (_phase_of(interval, reference, reference) for interval in found)
+    return fill, vent
+
+
+def _begun(
+    found: tuple[Interval | None, Interval | None], command: Segments, *, before: float
+) -> tuple[Interval | None, Interval | None]:
+    """The phases without what goes on since before the run: a muscle held at a level is not filled."""
+    if command.start_values[0] != before or command.slopes[0] != 0.0:
+        return found
+    changed = float(command.times[1])
+    fill, vent = (None if each is None or each[1] <= changed else each for each in found)
+    way = 0.0  # in which the command goes on
+    if len(command.slopes) > 1:
+        way = float(command.start_values[1] - command.start_values[0] or command.slopes[1])
+    if fill is not None and fill[0] < changed:
+        fill = (changed, fill[1]) if way > 0.0 else None
+    if vent is not None and vent[0] < changed:
+        vent = (changed, vent[1]) if way < 0.0 else None
     return fill, vent
 
 
@@ -291,6 +345,7 @@ def tracking_of(run: Run, trace: Trace | None) -> Tracking | None:
             command=np.asarray(run.command.value(trace.time)),
             limits=(controller.output_min, controller.output_max),
             contact=trace.contact,
+            stops=stops_of(run.drive),
             pressure=trace.pressure,
             full_pressure=full_pressure_of(run.drive),
             pulled_back=run.drive.pair,

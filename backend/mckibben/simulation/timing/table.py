@@ -11,23 +11,24 @@ does not conserve mass, the air is counted from pressure and volume at ambient t
 A figure that does not exist is None; ``notes`` says why under ``extend.<figure>``. Figures of a step exist
 where the command, or the reference of a controlled drive, is constant throughout the phase.
 
-The motion of a phase of a step has a state, found in this order: it *never leaves*; it *swings* (does not
-settle, with two even periods in its second half); it *returns* (ends within a tenth of its largest travel
-from where it began); it *arrives and holds* (settles within the band of the stop that it hits, or hits none
-and settles); it *arrives and bounces* (hits the stop ahead, and settles away from it); a demanded stroke
-that is not kept, or a motion the other way, *never arrives*; else it *drifts*: it still moves.
+The motion of a phase of a step has a state, found in this order: it *never leaves*; it *swings* (two even
+periods in its second half, or since it was first there, by more than half of the band to either side); it
+*returns* (ends within a tenth of its largest travel from where it began); it *arrives and holds* (settles
+within the band of the stop that it hits, or hits none and settles); it *arrives and bounces* (hits the stop
+ahead, and settles away from it); a demanded stroke that is not kept, or a motion the other way, *never
+arrives*; else it *drifts*: it still moves.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from typing import ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mckibben.facts.result import result_class
+from mckibben.facts.result import Deferring, once, result_class
 from mckibben.facts.timing import (
     MOTION_FIGURES,
     NO_STEP,
@@ -49,9 +50,10 @@ MotionState = Literal[
 # Figures that need an arrival.
 _TIMED = ("positioning_time", "rise_time", "delay_time", "settling_time", "average_speed")
 _SWING = ("swing_frequency", "swing_amplitude")
-# Why there is no settling time; with an impact the load has arrived all the same.
+# Why there is no settling time; with an impact a load that still moves has arrived all the same.
 _SETTLES = TIMING["settling_time"].exists_when.otherwise
-_SWINGS = "arrives, but swings until the end of the phase"
+_SWINGS = "the load swings until the end of the phase"
+_MOVES = "arrives, but still moves at the end of the phase"
 
 #: Travel [m] and pressure change [Pa] below these count as none.
 SMALLEST_STROKE, SMALLEST_STEP = 1e-5, 100.0
@@ -121,7 +123,7 @@ class Phase:
 
 
 @result_class
-class TimingTable:
+class TimingTable(Deferring):
     """Figures of the first fill and of the vent after it."""
 
     extend: PhaseFigures = field(default_factory=PhaseFigures)
@@ -157,28 +159,39 @@ def timing(
         delays: dead times of the valve for opening and closing [s]; so long the flow of the phase before goes
             on, and counts there.
     """
-    notes: dict[str, str] = {}
-    table: dict[str, PhaseFigures] = {}
-    for name, phase, sign in (("extend", fill, 1.0), ("retract", vent, -1.0)):
-        window = None if phase is None else trace.window(*phase.interval)
-        if phase is None or window is None:
-            why = "the command has no such phase" if phase is None else "the run ended before this phase"
-            table[name], reasons = PhaseFigures(), dict.fromkeys(TIMING, why)
-        else:
-            motion = _Motion(window, sign, phase.target, band)
-            figures, reasons = motion.figures(mass)
-            late, later = delays if sign > 0.0 else delays[::-1]
-            flows = window.time[0] + late, window.time[-1] + later
-            for part, why in (motion.pressure(), air(trace, flows, sign)):
-                figures |= part
-                reasons |= why
-            state, said = motion.state() if phase.stepped else (None, None)
-            if not phase.stepped:
-                figures |= dict.fromkeys(STEP_FIGURES)
-                reasons |= dict.fromkeys(STEP_FIGURES, NO_STEP)
-            table[name] = PhaseFigures(**figures, state=state, motion=said)
-        notes |= {f"{name}.{figure}": reason for figure, reason in reasons.items()}
-    return TimingTable(table["extend"], table["retract"], notes)
+    motions = {
+        name: once(partial(_of_phase, trace, phase, sign, mass, band, delays))
+        for name, phase, sign in (("extend", fill, 1.0), ("retract", vent, -1.0))
+    }
+    return TimingTable.deferred(
+        extend=lambda: motions["extend"]()[0],
+        retract=lambda: motions["retract"]()[0],
+        notes=lambda: {
+            f"{name}.{figure}": why for name, found in motions.items() for figure, why in found()[1].items()
+        },
+    )
+
+
+def _of_phase(
+    trace: Trace, phase: Phase | None, sign: float, mass: float | None, band: float, delays: Interval
+) -> tuple[PhaseFigures, dict[str, str]]:
+    """The figures of a phase whose motion has a sign, and remarks on them."""
+    window = None if phase is None else trace.window(*phase.interval)
+    if phase is None or window is None:
+        why = "the command has no such phase" if phase is None else "the run ended before this phase"
+        return PhaseFigures(), dict.fromkeys(TIMING, why)
+    motion = _Motion(window, sign, phase.target, band)
+    figures, reasons = motion.figures(mass)
+    late, later = delays if sign > 0.0 else delays[::-1]
+    flows = window.time[0] + late, window.time[-1] + later
+    for part, why in (motion.pressure(), air(trace, flows, sign)):
+        figures |= part
+        reasons |= why
+    state, said = motion.state() if phase.stepped else (None, None)
+    if not phase.stepped:
+        figures |= dict.fromkeys(STEP_FIGURES)
+        reasons |= dict.fromkeys(STEP_FIGURES, NO_STEP)
+    return PhaseFigures(**figures, state=state, motion=said), reasons
 
 
 Figures = tuple[dict[str, float | None], dict[str, str]]
@@ -212,18 +225,31 @@ class _Motion:
 
     @cached_property
     def swing(self) -> Swing | None:
-        """The swing in the second half of a phase that does not settle; of half of the band at least."""
-        if self.settled is not None:
+        """The swing of the second half of a phase, or since the load was first there, of half of the band.
+
+        Where a stroke is demanded, a load that stays within the band around it does not swing.
+        """
+        if self.stays or (self.demanded and self._within is not None):
             return None
-        half = int(np.searchsorted(self.time, 0.5 * self.last))
-        found = None if self.contact[half:].all() else swing_of(self.time[half:], self.travel[half:])
-        least = 0.5 * self.band * abs(self.stroke)
-        return found if found is not None and found.amplitude > least else None
+        least, impact = 0.5 * self.band * abs(self.stroke), self.impact
+        there = (self._first(0.9 * self.stroke) or 0.0) if impact is None else self._since(impact)
+        for since in (0.5 * self.last, min(there, 0.5 * self.last)):
+            rows = slice(int(np.searchsorted(self.time, since)), None)
+            if not np.ptp(self.travel[rows]) > 2.0 * least:
+                return None
+            if (found := swing_of(self.time[rows], self.travel[rows])) is not None:
+                return found if found.amplitude > least else None
+        return None
 
     @cached_property
-    def settled(self) -> float | None:
-        """Since when the travel stays within the band."""
+    def _within(self) -> float | None:
+        """Since when the travel stays within the band around the stroke."""
         return None if self.stays else self._settled(self.travel, self.stroke, self.band * abs(self.stroke))
+
+    @property
+    def settled(self) -> float | None:
+        """The same of a load that does not swing: of one that does, the last instant decides about it."""
+        return None if self.swing is not None else self._within
 
     def state(self) -> tuple[MotionState, str]:
         """How the motion ends, and a sentence."""
@@ -293,10 +319,13 @@ class _Motion:
             why = unsettled = _SETTLES
             on_stop = (
                 stop is not None
+                and swing is None
                 and stop - self.reached <= self.band * stop
                 and not (self.demanded and abs(stop - stroke) > self.band * stroke)
             )
-            if self.demanded:
+            if swing is not None:
+                why = unsettled = _SWINGS
+            elif self.demanded:
                 best = 1e3 * float(self.travel.max())
                 why = unsettled = f"{best:.3g} mm of the {1e3 * stroke:.3g} mm are reached, or not kept"
             elif stop is not None and not on_stop:
@@ -306,7 +335,7 @@ class _Motion:
             if impact is not None and on_stop and arrival is not None:
                 arrival, travelled = self._since(impact), self._travel_to(impact)
                 settled = None if settled is None else max(settled, arrival)
-                unsettled = why if self.demanded else _SWINGS
+                unsettled = why if self.demanded else _MOVES
             figures |= {"settling_time": settled, "positioning_time": arrival}
             if arrival:
                 figures["average_speed"] = travelled / arrival

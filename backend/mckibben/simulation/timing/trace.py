@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from copy import copy
-from dataclasses import dataclass, fields
-from typing import Any
+from dataclasses import dataclass, field, fields
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,6 +38,7 @@ class Trace:
         from_states: whether both are counted from the states because the flows do not conserve mass.
         tube_charge: the part of the air that is in the tube [kg]; default 0.
         impacts: in order of time. At each the trace has two rows, before and after it.
+        table: the columns of real numbers as the rows of one array, in the order of `REAL`.
 
     Raises:
         ValueError: columns of different length, fewer than two rows, time not ascending, nan or inf.
@@ -61,6 +60,7 @@ class Trace:
     tube_charge: Array = None  # type: ignore
     impacts: tuple[Impact, ...] = ()
     from_states: bool = False
+    table: Array = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         flow = np.asarray(self.mass_flow, dtype=np.float64)
@@ -85,6 +85,19 @@ class Trace:
             object.__setattr__(self, name, column)
         if len(self.time) < 2 or not (np.diff(self.time) > 0.0).all():
             raise ValueError("time: two or more ascending values are needed")
+        self.__dict__.update(_of_table(np.array([getattr(self, name) for name in REAL])))
+
+    @classmethod
+    def sound(
+        cls, table: Array, contact: NDArray[np.bool_], choked: NDArray[np.int_], *,
+        impacts: tuple[Impact, ...], from_states: bool,
+    ) -> Trace:  # fmt: skip
+        """The trace of a table that is known to be finite and to ascend, which is not checked again."""
+        made = cls.__new__(cls)
+        made.__dict__.update(
+            _of_table(table), contact=contact, choked=choked, impacts=impacts, from_states=from_states
+        )
+        return made
 
     def window(self, start: float, end: float) -> Trace | None:
         """The rows between two instants, with interpolated first and last rows; None when there are none."""
@@ -96,22 +109,22 @@ class Trace:
         at = np.searchsorted(self.time, ends, side="right") - 1
         before = np.minimum(at, len(self.time) - 2)
         share = (ends - self.time[before]) / (self.time[before + 1] - self.time[before])
-        columns: dict[str, Any] = {}
-        for name in _COLUMNS:
-            column = getattr(self, name)
-            part = np.empty(last - first + 2, column.dtype)
-            part[1:-1] = column[first:last]
-            if column.dtype == np.float64:
-                part[[0, -1]] = column[before] * (1.0 - share) + column[before + 1] * share
-            else:
-                part[[0, -1]] = column[at]
-            columns[name] = part
-        columns["time"][[0, -1]] = ends
-        columns["impacts"] = tuple(impact for impact in self.impacts if start < impact.time < end)
-        window = copy(self)  # rows of a sound trace are sound
-        window.__dict__.update(columns)
-        return window
+        table = np.empty((len(REAL), last - first + 2))
+        table[:, 1:-1] = self.table[:, first:last]
+        table[:, [0, -1]] = self.table[:, before] * (1.0 - share) + self.table[:, before + 1] * share
+        table[0, [0, -1]] = ends
+        rows = np.concatenate([at[:1], np.arange(first, last), at[1:]])
+        impacts = tuple(impact for impact in self.impacts if start < impact.time < end)
+        return Trace.sound(
+            table, self.contact[rows], self.choked[rows], impacts=impacts, from_states=self.from_states
+        )
 
 
-#: The fields that are columns.
-_COLUMNS = tuple(each.name for each in fields(Trace) if each.name not in ("impacts", "from_states"))
+def _of_table(table: Array) -> dict[str, Array]:
+    """The attributes that a table gives."""
+    return {"table": table, **dict(zip(REAL, table, strict=True))}
+
+
+#: The fields that are columns, and those of real numbers; time is the first.
+_COLUMNS = tuple(each.name for each in fields(Trace) if each.name not in ("impacts", "from_states", "table"))
+REAL = tuple(name for name in _COLUMNS if name not in ("contact", "choked"))

@@ -3,9 +3,10 @@
 A step is a jump of the reference to a constant level, or a constant reference away from where the load
 begins. It *settles* if the position stays within 2 % of the step around the level from some time before the
 last tenth of its time on. Else it *swings* (two even periods in the second half of its time; *unstable*
-where they grow), or the load rests: *beside* the level, with the command at its limit or the muscle at full
-pressure (*saturates*), on an end stop (*on the stop*), or beyond the level with a muscle that is vented and
-cannot push it back (*cannot return*); or it still *moves*. A run under steps is as good as its worst one.
+where they grow), or the load rests: on an end stop beyond which the level is (*on the stop*), *beside* the
+level, with the command at its limit or the muscle at full pressure (*saturates*), or beyond the level with a
+muscle that is vented and cannot push it back (*cannot return*); or it still *moves*. A run under steps is as
+good as its worst one.
 Where the reference moves all the time the run *swings* about it (*unstable* where that grows) if the error
 of its second half has even periods, at least twice as many as the reference turns there and back, and more
 than 1 % of its range; it *tracks* if the RMS error is at most 5 % of the range of the reference, *saturates*
@@ -46,6 +47,7 @@ _VENTED = 0.01  # of the largest pressure
 _GROWS = 1.02  # of the amplitude from period to period
 _OWN = 2.0  # frequency of a swing about a moving reference, in that of the reference
 _SMALLEST = 1e-5  # m; a smaller step is none
+_SHORTEST_LAG = 1e-4  # s; a shorter one is not worth a word
 _SEEN = 5e-4  # least swing, as a share of the step; the settling band is 40 times as wide
 
 
@@ -98,6 +100,7 @@ class Followed:
         command: of the controller [-].
         limits: of the command.
         contact: whether the load rests on an end stop; None = never.
+        stops: positions of the end stops [m].
         pressure: gauge pressure of the muscle [Pa]; None = not known.
         full_pressure: highest gauge pressure that the muscle can be given [Pa].
         pulled_back: whether a second muscle pulls the load back.
@@ -111,6 +114,7 @@ class Followed:
     command: Array
     limits: tuple[float, float]
     contact: NDArray[np.bool_] | None = None
+    stops: tuple[float, float] = (-np.inf, np.inf)
     pressure: Array | None = None
     full_pressure: float = np.inf
     pulled_back: bool = False
@@ -220,7 +224,7 @@ def _of_motion(followed: Followed, rms: float, largest: float, lag: float | None
         f"{words} the reference within {100.0 * _TRACKS:g} % of its range: RMS error {rms * 1e3:.3g} mm of "
         f"{size * 1e3:.4g} mm ({100.0 * rms / size:.3g} %), at most {largest * 1e3:.3g} mm"
     )
-    if lag is not None:
+    if lag is not None and lag >= _SHORTEST_LAG:
         text += f", {lag * 1e3:.4g} ms late"
     if state == "saturates":
         text += f"; the command is at its limits for {100.0 * limited:.3g} % of the time"
@@ -361,7 +365,7 @@ def _step(followed: Followed, begin: int, end: int, size: float) -> FollowedStep
     elif swing is not None and swing.amplitude > 0.5 * band:
         state = "unstable" if swing.growth > _GROWS else "swings"
     elif np.ptp(rest) <= band:
-        state = _at_rest(followed, quarter, -error)
+        state = _at_rest(followed, quarter, level, -error)
     return FollowedStep(
         time=float(t[0]),
         size=size,
@@ -375,8 +379,12 @@ def _step(followed: Followed, begin: int, end: int, size: float) -> FollowedStep
     )
 
 
-def _at_rest(followed: Followed, rows: slice, beyond: float) -> FollowState:
+def _at_rest(followed: Followed, rows: slice, level: float, beyond: float) -> FollowState:
     """Why a load rests away from its level, ``beyond`` it on the side of a shorter muscle [m]."""
+    low, high = followed.stops
+    rests = followed.contact is not None and bool(followed.contact[rows].all())
+    if rests and not low <= level <= high:
+        return "on_stop"
     pressure = followed.pressure
     if pressure is not None:
         vented = float(np.max(pressure[rows])) <= _VENTED * float(np.max(pressure))
@@ -384,6 +392,6 @@ def _at_rest(followed: Followed, rows: slice, beyond: float) -> FollowState:
             return "cannot_return"
         if beyond < 0.0 and float(np.min(pressure[rows])) >= (1.0 - _VENTED) * followed.full_pressure:
             return "saturates"
-    if followed.contact is not None and followed.contact[rows].all():
+    if rests:
         return "on_stop"
     return "saturates" if followed.at_limits(rows) >= _LIMITED else "beside"

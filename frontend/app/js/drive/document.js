@@ -123,11 +123,11 @@ function converted(part, path, whole) {
     if (Array.isArray(part.values) && typeof part.unit === "string") {
       return part.values.map((/** @type {unknown} */ v) => siNumber(`${v} ${part.unit}`) ?? v);
     }
-    return Object.fromEntries(
+    return fieldsOfSignal(Object.fromEntries(
       Object.entries(part).map((
         [name, value],
       ) => [name, converted(value, path ? `${path}.${name}` : name, whole)]),
-    );
+    ));
   }
   if (Array.isArray(part)) return part.map((value) => converted(value, path, whole));
   if (typeof part !== "string") return part;
@@ -135,6 +135,19 @@ function converted(part, path, whole) {
   if (si === null) return part;
   const ofPosition = GAINS.has(key) && !path.includes(".stiffness.");
   return ofPosition && /[a-z%]/i.test(part) ? statedGain(key, si) : si;
+}
+
+/** A signal by the fields of this page, where a document may say the same by others: the period of a sine, the
+ * amplitude of a square. Any other object stays as it is. @param {any} part @returns {any} */
+function fieldsOfSignal(part) {
+  const { period, amplitude, ...rest } = part;
+  if (part.shape === "sine" && period > 0 && part.frequency === undefined) {
+    return { ...rest, ...(amplitude === undefined ? {} : { amplitude }), frequency: 1 / period };
+  }
+  if (part.shape !== "square" || typeof amplitude !== "number") return part;
+  const square = { ...rest, ...(period === undefined ? {} : { period }) };
+  if (typeof part.initial === "number") return { ...square, level: part.initial + amplitude };
+  return typeof part.level === "number" ? { ...square, initial: part.level - amplitude } : part;
 }
 
 /** Only numbers, texts, lists and objects, not nested deeply.

@@ -81,7 +81,8 @@ function verdict() {
     doubts = r.flags.filter((f) => f.code === NOTE);
   const { verdict: asked } = r;
   const away = asked.met === false;
-  const grade = !done ? "bad" : hard.length || away ? "warn" : "good";
+  // Green is an answer: of a run that is asked nothing there is none.
+  const grade = !done ? "bad" : hard.length || away ? "warn" : asked.met === null ? "plain" : "good";
   const end = r.time.at(-1) ?? 0;
   return [
     ...beside.map((f) =>
@@ -90,12 +91,12 @@ function verdict() {
     h(
       "p",
       { class: `verdict ${grade}` },
-      icon(grade === "good" ? "check" : "warn"),
+      icon(grade === "good" ? "check" : grade === "plain" ? "info" : "warn"),
       h(
         "span",
         null,
         OUTCOMES[r.outcome] ?? r.outcome,
-        done && asked.state ? unbroken(` ${asked.sentence}`) : "",
+        done ? unbroken(` ${asked.sentence}`) : "",
         done && r.tracking?.advice ? h("span", { class: "advice" }, ` ${capital(r.tracking.advice)}.`) : "",
         done
           ? hard.length ? " It leaves the permitted range:" : " No permitted limit is exceeded."

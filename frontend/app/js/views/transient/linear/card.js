@@ -34,6 +34,7 @@ import {
 } from "./tables.js";
 
 /** @typedef {import("./model.js").PointKind} PointKind */
+/** @typedef {import("./model.js").Linear} Linear */
 /** @typedef {import("./specs.js").Entry} Entry */
 
 const gain = plot("linear-gain", "Gain", "Gain over frequency: linear models and the nonlinear drive");
@@ -241,6 +242,15 @@ function designPart() {
   ];
 }
 
+/** The loop of the controller, and what a run with its gains does. @param {Linear} answer */
+const loopOf = ({ loop }) =>
+  loop
+    ? [
+      marginsTable(loop.margins),
+      loop.run ? h("p", { class: "muted" }, `A run with these gains: ${loop.run}`) : null,
+    ]
+    : [];
+
 function results() {
   const answer = linear.value;
   if (!answer) return null;
@@ -250,7 +260,7 @@ function results() {
       "div",
       { class: "linear-pair" },
       polesTable(answer),
-      h("div", null, modelsTable(answer), answer.loop ? marginsTable(answer.loop.margins) : null),
+      h("div", null, modelsTable(answer), ...loopOf(answer)),
     ),
     h(
       "details",
