@@ -183,7 +183,7 @@ def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False)
     command, control, notes = _command(document, regulator is not None, measured=measured)
     _check_flow(valve, command, None if control is None else control.controller)
     tube, control_valve = tube_of(document.tube, tube_preset), flow_control_of(document.flow_control)
-    lowest, highest = _stops(document, model)
+    lowest, highest = stops_of(document, model)
     if document.start.position is not None and document.start.reached is not None:
         raise InputError(
             "a load that is released at a stated position has not come to rest there",
@@ -317,7 +317,7 @@ def _check_flow(valve: Valve, command: Signal, controller: PidController | None)
             )  # fmt: skip
 
 
-_PRECONTRACTION = 0.1  # default of both muscles of a pair
+DEFAULT_PRECONTRACTION = 0.1  # default of both muscles of a pair
 
 
 class _PairSettings(NamedTuple):
@@ -333,7 +333,7 @@ def _pair(document: DriveDocument, lowest: float, highest: float) -> _PairSettin
     load = document.load
     if load.arrangement != "antagonist":
         return _PairSettings()
-    middle = _PRECONTRACTION if load.precontraction is None else load.precontraction
+    middle = DEFAULT_PRECONTRACTION if load.precontraction is None else load.precontraction
     if not lowest < middle < highest:
         raise InputError(
             f"the middle at {middle * 100:.3g} % is not between the stops at {lowest * 100:.3g} % and "
@@ -344,7 +344,7 @@ def _pair(document: DriveDocument, lowest: float, highest: float) -> _PairSettin
     return _PairSettings(pair=True, precontraction=middle, pulley_radius=load.pulley_radius)
 
 
-def _stops(document: DriveDocument, model: StaticModel) -> tuple[float, float]:
+def stops_of(document: DriveDocument, model: StaticModel) -> tuple[float, float]:
     """End stops as contractions, within the possible range of the muscle."""
     stops = document.stops
     lowest, highest = stops.min_contraction, stops.max_contraction

@@ -23,6 +23,7 @@ from dataclasses import dataclass, replace
 from math import hypot, inf
 
 import numpy as np
+import symengine as se
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline, PchipInterpolator, PPoly
 
@@ -62,9 +63,7 @@ class Disagreement:
         """What it says, for people."""
         factor = ""
         if np.isfinite(self.lever_factor) and abs(self.lever_factor - 1.0) > 1e-3:
-            factor = (
-                f"; levers {self.lever_factor:.3g} times as large would leave {1e3 * self.rest:.2g} mm"
-            )
+            factor = f"; levers {self.lever_factor:.3g} times as large would leave {1e3 * self.rest:.2g} mm"
         return (
             f"lengths and levers of the path disagree: by virtual work (lever = -dL/d angle) the stated "
             f"length is off by {1e3 * self.rms:.2g} mm rms, by {1e3 * self.largest:+.2g} mm at "
@@ -117,9 +116,7 @@ class MusclePath:
             )
         angle = np.linspace(max(low, self.low), min(high, self.high), _SAMPLES)
         with np.errstate(all="ignore"):
-            length, lever = (
-                np.broadcast_to(of(angle), angle.shape) for of in (self.length, self.lever)
-            )
+            length, lever = (np.broadcast_to(of(angle), angle.shape) for of in (self.length, self.lever))
         for name, values, right in (("lever", lever, np.isfinite(lever)), ("length", length, length > 0.0)):
             if not np.all(right):
                 place = int(np.argmin(right))
@@ -161,12 +158,14 @@ def path_of_lever(*, lever: Function, length: float, low: float, high: float) ->
     def turned(angle: Value, rule: tuple[Array, Array] = rules[0]) -> Value:
         at, weight = rule
         half = 0.5 * angle
-        return sum((half * float(w) * lever(half * (1.0 + float(x))) for x, w in zip(at, weight, strict=True)), 0.0)
+        return sum(
+            (half * float(w) * lever(half * (1.0 + float(x))) for x, w in zip(at, weight, strict=True)), 0.0
+        )
 
     path = MusclePath(
         length=lambda angle: length - turned(angle),
         lever=lambda angle: lever(angle) + 0.0 * angle,
-        lever_slope=lambda angle: ops.derivative(lever, angle) + 0.0 * angle,
+        lever_slope=_derivative(lever),
         low=low,
         high=high,
     )
@@ -187,18 +186,13 @@ def path_of_lever(*, lever: Function, length: float, low: float, high: float) ->
 def path_of_length(*, length: Function, low: float, high: float) -> MusclePath:
     """A path by its length [m] over the angle [rad]; lever and slope are its exact derivatives."""
 
-    def lever(angle: Value) -> Value:
-        return -ops.derivative(length, angle) + 0.0 * angle
-
-    def slope(angle: Value) -> Value:
-        if ops.is_symbolic(angle):
-            return ops.derivative(lever, angle)
-        # A complex step inside a complex step is not one; a central difference of exact levers.
-        step = 1e-5
-        return (lever(angle + step) - lever(angle - step)) / (2.0 * step)
-
+    lever = _negative(_derivative(length))
     return MusclePath(
-        length=lambda angle: length(angle) + 0.0 * angle, lever=lever, lever_slope=slope, low=low, high=high
+        length=lambda angle: length(angle) + 0.0 * angle,
+        lever=lever,
+        lever_slope=_derivative(lever),
+        low=low,
+        high=high,
     )
 
 
@@ -251,8 +245,8 @@ def path_of_table(
     Levers are joined by monotone cubics (no lever between two rows is outside of them), whose exact integral
     the length is; lengths alone by a cubic spline, whose exact derivative the lever is. Where both are given
     the levers count, at the mean of the stated lengths, and `Disagreement` says what the lengths say else.
-    Levers without a sign are customary: where none is negative and the stated lengths grow with the angle, the
-    muscle turns to smaller angles and the levers are negative.
+    Levers without a sign are customary: where none is negative and the stated lengths grow with the angle,
+    the muscle turns to smaller angles and the levers are negative.
 
     Args:
         angle: distinct, in any order.
@@ -280,9 +274,7 @@ def path_of_table(
         spline: PPoly = CubicSpline(angle, length)
         by_length = spline.derivative()
         bent = spline.derivative(2)
-        return MusclePath(
-            _pieces(spline), _negative(_pieces(by_length)), _negative(_pieces(bent)), low, high
-        )
+        return MusclePath(_pieces(spline), _negative(_pieces(by_length)), _negative(_pieces(bent)), low, high)
     levers: PPoly = PchipInterpolator(angle, lever) if len(angle) > 2 else CubicSpline(angle, lever)
     if length is not None and np.all(lever >= 0.0) and float(np.polyfit(angle, length, 1)[0]) > 0.0:
         levers = PPoly(-levers.c, levers.x)
@@ -299,7 +291,12 @@ def path_of_table(
         )
     integral = _pieces(turned)
     return MusclePath(
-        lambda at: constant - integral(at), _pieces(levers), _pieces(levers.derivative()), low, high, disagreement
+        lambda at: constant - integral(at),
+        _pieces(levers),
+        _pieces(levers.derivative()),
+        low,
+        high,
+        disagreement,
     )
 
 
@@ -323,6 +320,21 @@ def _disagreement(angle: Array, length: Array, turned: Array) -> Disagreement:
         lever_factor=factor,
         rest=float(np.sqrt(np.mean(rest**2))),
     )
+
+
+def _derivative(of: Function) -> Function:
+    """The exact derivative, from that of the function on a symbol."""
+    symbol = se.Symbol("angle")
+    slope = se.sympify(of(symbol)).diff(symbol)
+    compiled = se.Lambdify([symbol], [slope])
+
+    def at(angle: Value) -> Value:
+        if ops.is_symbolic(angle):
+            return slope.subs({symbol: angle})
+        values = np.asarray(angle, float)
+        return compiled(values.reshape(-1, 1)).reshape(values.shape)
+
+    return at
 
 
 def _negative(of: Function) -> Function:

@@ -179,7 +179,9 @@ class Joint:
         """Their stiffness [N m/rad]."""
         return self.spring - self.weight * np.sin(np.asarray(angle, float) - self.level_at)
 
-    def torque(self, *, angle: Array | float, pressures: Sequence[Array | float], direction: float = 0.0) -> Array:
+    def torque(
+        self, *, angle: Array | float, pressures: Sequence[Array | float], direction: float = 0.0
+    ) -> Array:
         """Torque that the joint exerts on what holds it [N m]; NaN beyond the braid lock of a muscle.
 
         Args:
@@ -194,7 +196,9 @@ class Joint:
         ]
         return sum(parts, self.passive(at)) - direction * self.friction
 
-    def stiffness(self, *, angle: Array | float, pressures: Sequence[Array | float], closed: bool = False) -> Array:
+    def stiffness(
+        self, *, angle: Array | float, pressures: Sequence[Array | float], closed: bool = False
+    ) -> Array:
         """Stiffness of the joint [N m/rad], valves open or closed; arguments as `torque`."""
         at = np.asarray(angle, float)
         states = [self.muscle_at(i, angle=at, pressure=p) for i, p in enumerate(pressures)]
@@ -251,11 +255,11 @@ class Joint:
             fits = stiffness is None or abs(value - stiffness) <= _SAME * max(abs(value), 1.0)
             return PressuresFor((own,) if fits else (), value, value)
         first, second = self.family(angle=np.array([angle]), highest=highest, torque=torque)
-        values = self.stiffness(angle=angle, pressures=[first[0], second[0]])
-        there = np.isfinite(values)
+        there = np.isfinite(second[0])
         if not np.any(there):
             return PressuresFor((), float("nan"), float("nan"))
-        first, second, values = first[0][there], second[0][there], values[there]
+        first, second = first[0][there], second[0][there]
+        values = self.stiffness(angle=angle, pressures=[first, second])
         least, most = float(values.min()), float(values.max())
         wanted = least if stiffness is None else stiffness
         if not least <= wanted <= most:
@@ -291,7 +295,10 @@ class Joint:
             counter = self.muscle_at(1, angle=at, pressure=other).torque
             ends.append(self._pressure_of(0, at, self._needed(at, torque) - counter, highest))
         firsts = np.concatenate(
-            [np.broadcast_to(np.linspace(0.0, highest, _LEVELS), (len(at), _LEVELS)), np.stack(ends[2:], axis=1)],
+            [
+                np.broadcast_to(np.linspace(0.0, highest, _LEVELS), (len(at), _LEVELS)),
+                np.stack(ends[2:], axis=1),
+            ],
             axis=1,
         )
         firsts = np.sort(firsts, axis=1)
