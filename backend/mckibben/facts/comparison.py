@@ -89,6 +89,9 @@ CHANNELS = Group(
         quantity="number",
     ),
     Figure("temperature", "T", "K", "Muscle temperature", "Temperature of the muscle, not of its air."),
+    Figure("angle", "φ", "rad", "Angle", "Angle of the joint."),
+    Figure("torque", "M", "N*m", "Torque", "Torque on the joint, as it was measured."),
+    Figure("lever", "r", "m", "Lever", "Lever at which the muscle pulls at the joint."),
     Figure("group", "", "1", "Group", "Number of the sweep or run.", quantity="number"),
 )  # fmt: skip
 

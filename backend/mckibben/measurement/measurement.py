@@ -34,10 +34,12 @@ __all__ = [
 ]  # fmt: skip
 
 #: Canonical channel name -> SI unit. Pressure is gauge; displacement is a contraction stroke (positive =
-#: shorter); command is the share of valve opening; direction is -1 shortening, +1 lengthening, 0 unknown.
+#: shorter); command is the share of valve opening; direction is -1 shortening, +1 lengthening, 0 unknown;
+#: angle and torque are those of a joint, lever that at which the muscle pulls.
 CHANNEL_UNITS: Mapping[str, str] = MappingProxyType({
     "time": "s", "pressure": "Pa", "force": "N", "length": "m", "contraction": "1", "displacement": "m",
-    "diameter": "m", "velocity": "m/s", "command": "1", "temperature": "K", "direction": "1", "group": "1",
+    "diameter": "m", "velocity": "m/s", "command": "1", "temperature": "K", "angle": "rad", "torque": "N*m",
+    "lever": "m", "direction": "1", "group": "1",
 })  # fmt: skip
 
 _HARDLY_A_PRESSURE = 2e3  # Pa; too low to have an effect on a muscle

@@ -44,7 +44,6 @@ FINAL = (
     "deviation",
     "tube size",
     "a value",
-    "lever",
     "slack",
     "condition",
     "ignored",
@@ -54,7 +53,8 @@ _ASIDE = ("set value", "running number", "remark", "raw", "words", "counter", "s
 SLOTS = {
     "time": "time", "pressure": "pressure", "force": "force", "length": "stroke", "contraction": "stroke",
     "displacement": "stroke", "command": "command", "diameter": "diameter",
-    "temperature": "temperature", "velocity": "velocity",
+    "temperature": "temperature", "velocity": "velocity", "angle": "angle", "torque": "torque",
+    "lever": "lever",
 }  # fmt: skip
 _MAIN = ("pressure", "force", "stroke")
 
@@ -378,7 +378,7 @@ def decide(table: Table, evidence: Sequence[Evidence], facts: Facts) -> Decision
     score, winner = ranked[0]
     uses: dict[str, tuple[int, Use]] = {o.use.channel: (o.column, o.use) for o in winner if o is not None}
     taken = {o.column for o in winner if o is not None}
-    for slot in ("time", "command", "diameter", "temperature", "velocity"):
+    for slot in ("time", "command", "diameter", "temperature", "velocity", "angle", "torque", "lever"):
         best = next(
             (
                 o
@@ -416,7 +416,7 @@ def decide(table: Table, evidence: Sequence[Evidence], facts: Facts) -> Decision
     )
 
 
-_ASIDE_SLOTS = ("velocity", "diameter")
+_ASIDE_SLOTS = ("velocity", "diameter", "angle", "torque", "lever")
 
 
 def _is_said(option: Option, evidence: Sequence[Evidence], facts: Facts) -> bool:
