@@ -24,7 +24,6 @@ from mckibben.documents.quantity import Contraction, QuantityField, Temperature
 from mckibben.documents.start_model import StartModel, stated_muscle
 from mckibben.documents.strict import Strict
 from mckibben.documents.studio import Studio
-from mckibben.physics.custom import typed_formula
 from mckibben.physics.errors import InputError, fields_inside
 from mckibben.physics.muscle_path import (
     MusclePath,
@@ -32,16 +31,15 @@ from mckibben.physics.muscle_path import (
     path_of_length,
     path_of_lever,
     path_of_table,
+    quantity_or_formula,
     two_points,
 )
 from mckibben.physics.ops import Value
-from mckibben.physics.units import si
 from mckibben.presets.reading import BadDocumentError, read_file
 from mckibben.simulation.statics.joint import Joint, JointMuscle, weight_torque
 
 _TURN = 2.0 * np.pi
 _PAIR = ("first", "second")
-ANGLE_SYMBOLS = {"angle": "of the joint [rad]"}
 
 JointAngle = Annotated[float, QuantityField("rad", "30 deg", at_least=-_TURN, at_most=_TURN)]
 Lever = Annotated[float, QuantityField("m", "30 mm", at_least=-10.0, at_most=10.0)]
@@ -291,7 +289,7 @@ def _path(stated: PathInput, rest_length: float, low: float, high: float) -> Mus
     if stated.table is not None:
         return _table(stated, rest_length)
     if stated.lever is None:
-        length = _quantity_or_formula(stated.length, "length")
+        length = quantity_or_formula(stated.length, "length")
         if isinstance(length, float):
             raise InputError(
                 "a constant length has no lever", field="length", hint="a formula, e.g. '0.3 - 0.03*angle'"
@@ -299,12 +297,12 @@ def _path(stated: PathInput, rest_length: float, low: float, high: float) -> Mus
         return path_of_length(length=length, low=low, high=high)
     at_zero = rest_length
     if stated.length is not None:
-        at_zero = _quantity_or_formula(stated.length, "length")
+        at_zero = quantity_or_formula(stated.length, "length")
         if not isinstance(at_zero, float):
             raise InputError(
                 "with a lever the length is that at the angle 0", field="length", hint="e.g. '300 mm'"
             )
-    lever = _quantity_or_formula(stated.lever, "lever")
+    lever = quantity_or_formula(stated.lever, "lever")
     if isinstance(lever, float):
         return constant_lever(lever=lever, length=at_zero)
     return path_of_lever(lever=lever, length=at_zero, low=min(low, 0.0), high=max(high, 0.0))
@@ -323,7 +321,7 @@ def _table(stated: PathInput, rest_length: float) -> MusclePath:
         columns[name] = None if values is None else np.array(values)
     at_zero: float | Callable[[Value], Value] = rest_length
     if stated.length is not None:
-        at_zero = _quantity_or_formula(stated.length, "length")
+        at_zero = quantity_or_formula(stated.length, "length")
         if not isinstance(at_zero, float) or table.length is not None:
             raise InputError(
                 "a table with lengths has no length at the angle 0"
@@ -336,19 +334,6 @@ def _table(stated: PathInput, rest_length: float) -> MusclePath:
     return path_of_table(
         angle=np.array(table.angle), lever=columns["lever"], length=columns["length"], length_at_zero=at_zero
     )
-
-
-def _quantity_or_formula(value: float | str | None, field: str) -> float | Callable[[Value], Value]:
-    """A length in m, or a function of the angle."""
-    if not isinstance(value, str):
-        return float(value or 0.0)
-    try:
-        return float(si(value, "m"))
-    except InputError as error:
-        if "angle" not in value:
-            raise error.at(field) from error
-    formula = typed_formula(value, ANGLE_SYMBOLS, field=field)
-    return lambda angle: formula({"angle": angle})
 
 
 def _stops(document: JointInput) -> tuple[float, float]:

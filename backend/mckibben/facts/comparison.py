@@ -92,6 +92,10 @@ CHANNELS = Group(
     Figure("angle", "φ", "rad", "Angle", "Angle of the joint."),
     Figure("torque", "M", "N*m", "Torque", "Torque on the joint, as it was measured."),
     Figure("lever", "r", "m", "Lever", "Lever at which the muscle pulls at the joint."),
+    Figure(
+        "counter_pressure", "p₂", "Pa", "Pressure of the second muscle",
+        "Gauge pressure in the muscle that pulls against the first.",
+    ),
     Figure("group", "", "1", "Group", "Number of the sweep or run.", quantity="number"),
 )  # fmt: skip
 

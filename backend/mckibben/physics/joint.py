@@ -7,8 +7,8 @@ the angle, or both in each row. With the true angle :math:`\varphi` and the fact
    r_t = f\,r(\varphi), \qquad L_t = L(0) + f\,(L(\varphi) - L(0)), \qquad
    \tau = \sum_i r_{t,i}\,F_i(L_{t,i}) - \tau_{against}
 
-so that lever and length obey virtual work for every angle and factor. Where they were measured in each row, an
-error of the angle changes neither, and the length is what it is.
+so that lever and length obey virtual work for every angle and factor. Where they were measured in each row,
+an error of the angle changes neither, and the length is what it is.
 """
 
 from __future__ import annotations

@@ -28,8 +28,10 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline, PchipInterpolator, PPoly
 
 from mckibben.physics import ops
+from mckibben.physics.custom import typed_formula
 from mckibben.physics.errors import InputError
 from mckibben.physics.ops import Value
+from mckibben.physics.units import si
 
 Array = NDArray[np.float64]
 Function = Callable[[Value], Value]
@@ -320,6 +322,46 @@ def _disagreement(angle: Array, length: Array, turned: Array) -> Disagreement:
         lever_factor=factor,
         rest=float(np.sqrt(np.mean(rest**2))),
     )
+
+
+#: What a formula of a lever or a length may contain.
+ANGLE_SYMBOLS = {"angle": "of the joint [rad]"}
+
+
+def quantity_or_formula(value: float | str | None, field: str) -> float | Function:
+    """A length [m] from a number or quantity, or a function of the angle from a formula in m and rad.
+
+    Raises:
+        InputError: it is neither; at the field.
+    """
+    if not isinstance(value, str):
+        return float(value or 0.0)
+    try:
+        return float(si(value, "m"))
+    except InputError as error:
+        if "angle" not in value:
+            raise error.at(field) from error
+    formula = typed_formula(value, ANGLE_SYMBOLS, field=field)
+    return lambda angle: formula({"angle": angle})
+
+
+def path_on_lever(lever: str, *, length: float, low: float, high: float) -> MusclePath:
+    """The path of a lever as a text: "30 mm", or a formula "0.03 - 0.005*angle**2".
+
+    Args:
+        lever: see above.
+        length: of the muscle at the angle 0 [m].
+        low, high: angles between which it is used [rad].
+
+    Raises:
+        InputError: the text is neither; a lever that is not smooth, a length that is not above 0.
+    """
+    given = quantity_or_formula(lever, "lever")
+    if isinstance(given, float):
+        path = constant_lever(lever=given, length=length)
+    else:
+        path = path_of_lever(lever=given, length=length, low=min(low, 0.0), high=max(high, 0.0))
+    return path.checked(low, high)
 
 
 def _derivative(of: Function) -> Function:

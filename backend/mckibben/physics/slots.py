@@ -126,8 +126,8 @@ SLOTS: dict[str, Slot] = {
     "joint_angle": Slot("measured to true angle of a joint [rad]", ("angle",), "chain"),
     "joint_lever": Slot("multiplies the levers of a joint [-]", (), "product"),
     "joint_torque": Slot(
-        "torque on a joint to smaller angles, besides that of the muscles [N m]; direction is the sign of its "
-        "motion",
+        "torque on a joint to smaller angles, besides that of the muscles [N m]; direction is the sign of "
+        "its motion",
         ("angle", "direction"),
         "sum",
     ),

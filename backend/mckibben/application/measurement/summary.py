@@ -22,6 +22,7 @@ _USUAL_UNITS = {
     "displacement": ("mm", "m", "cm", "in"), "diameter": ("mm", "m", "in"), "velocity": ("m/s", "mm/s"),
     "command": ("1", "%"), "temperature": ("degC", "K", "degF"),
     "angle": ("deg", "rad"), "torque": ("N*m",), "lever": ("mm", "cm", "m", "in"),
+    "counter_pressure": ("bar", "kPa", "MPa", "mbar", "psi", "Pa"),
 }  # fmt: skip
 
 

@@ -402,6 +402,8 @@ def decide(table: Table, evidence: Sequence[Evidence], facts: Facts) -> Decision
         ):
             uses[option.use.channel] = option.column, option.use
             taken.add(option.column)
+    if (other := _counter(uses, slots["pressure"], taken, table)) is not None:
+        uses["counter_pressure"] = other.column, other.use._replace(channel="counter_pressure")
     for channel, (i, use) in uses.items():
         bad = [(t, v) for t, v in scorer.alone(Option(9.0, i, use)) if v <= -3.0]
         if bad:
@@ -414,6 +416,28 @@ def decide(table: Table, evidence: Sequence[Evidence], facts: Facts) -> Decision
         against,
         score,
     )
+
+
+_SAME_PRESSURE = 0.95  # correlation from which a second pressure is that of the same muscle
+
+
+def _counter(
+    uses: Mapping[str, tuple[int, Use]], pressures: Sequence[Option], taken: set[int], table: Table
+) -> Option | None:
+    """The pressure of a second muscle, where a joint's torque over its angle was measured."""
+    if not {"torque", "angle", "pressure"} <= set(uses) or "force" in uses:
+        return None
+    mine = table.columns[uses["pressure"][0]].values
+    for option in sorted(pressures, key=lambda o: -o.score):
+        other = table.columns[option.column].values
+        both = np.isfinite(mine) & np.isfinite(other)
+        if option.column in taken or option.score <= 0.0 or both.sum() < 3:
+            continue
+        if not (np.ptp(mine[both]) and np.ptp(other[both])):
+            return option
+        if np.corrcoef(mine[both], other[both])[0, 1] < _SAME_PRESSURE:
+            return option
+    return None
 
 
 _ASIDE_SLOTS = ("velocity", "diameter", "angle", "torque", "lever")

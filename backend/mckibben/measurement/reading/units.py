@@ -46,6 +46,7 @@ FITTING = {
     "displacement": ("length",), "contraction": ("ratio",), "diameter": ("length",), "velocity": ("speed",),
     "command": ("ratio",), "temperature": ("temperature",), "group": ("", "ratio"),
     "direction": ("", "ratio"), "angle": ("angle",), "torque": ("torque",), "lever": ("length",),
+    "counter_pressure": ("pressure",),
 }  # fmt: skip
 #: Unit of a mass -> that of its weight.
 WEIGHTS = {"kg": "kgf", "g": "gf", "lb": "lbf", "oz": "ozf"}

@@ -53,7 +53,5 @@ EFFECT = Effect(
     ),
     prior=Prior(0.3, "the zero of an angle is often set by eye"),
     references=(_DEFINITION,),
-    examples=(
-        Example("slot:joint_angle", 0.25, 1e-12, _DEFINITION, {"offset": 0.05}, {}, {"angle": 0.3}),
-    ),
+    examples=(Example("slot:joint_angle", 0.25, 1e-12, _DEFINITION, {"offset": 0.05}, {}, {"angle": 0.3}),),
 )

@@ -36,8 +36,8 @@ EFFECT = Effect(
     slots={"joint_torque": joint_torque},
     kinds=frozenset({"joint"}),
     signature=Signature(
-        text="a loop of one torque at every angle and pressure; over the lever it is a larger force where the "
-        "lever is short",
+        text="a loop of one torque at every angle and pressure; over the lever it is a larger force where "
+        "the lever is short",
         direction=None,
         pressure_power=None,
         zero_at=(),

@@ -1,4 +1,7 @@
-r"""Weight of the link that a joint turns, :math:`\tau_w = M_w\cos(\varphi - \varphi_h)`, :math:`M_w = m g c`."""
+r"""Weight of the link that a joint turns.
+
+:math:`\tau_w = M_w\cos(\varphi - \varphi_h)` with :math:`M_w = m g c`.
+"""
 
 from mckibben.physics import ops
 from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
