@@ -10,7 +10,8 @@ import mckibben as mk
 
 STOPS = {"min_angle": "-20 deg", "max_angle": "30 deg"}
 WRONG: list[tuple[dict[str, Any], str, str]] = [
-    ({"lever": "30 mm", "points": {"origin": [0, 0.3], "insertion": [0.03, 0]}}, "muscles.0.path.lever", "points and lever"),
+    ({"lever": "30 mm", "points": {"origin": [0, 0.3], "insertion": [0.03, 0]}}, "muscles.0.path.lever",
+     "points and lever"),
     ({}, "muscles.0.path", "by no way"),
     ({"lever": "30 bar"}, "muscles.0.path.lever", "a length is needed"),
     ({"lever": "0.03*cosh(angle)"}, "muscles.0.path.lever", "there is no function 'cosh'"),
@@ -20,10 +21,14 @@ WRONG: list[tuple[dict[str, Any], str, str]] = [
     ({"lever": "1/angle"}, "muscles.0.path.lever", "m$|no finite value|not smooth"),
     ({"length": "300 mm"}, "muscles.0.path.length", "a constant length has no lever"),
     ({"lever": "30 mm", "tendon": "20 mm"}, "muscles.0.path.tendon", "only a path between two points"),
-    ({"lever": "30 mm", "length": "300 mm", "contraction": 0.1}, "muscles.0.path.contraction", "give the length or"),
-    ({"points": {"origin": [0, 0], "insertion": [0.03, 0]}}, "muscles.0.path.points.origin", "lies on the pivot"),
-    ({"table": {"angle": [0, 1], "lever": ["3 mm"] * 3}}, "muscles.0.path.table.lever", "2 angles and 3 levers"),
-    ({"table": {"angle": [0, 0.1], "lever": ["3 mm", "3 mm"]}}, "muscles.0.path.stops", "is stated from 0 to 5.73"),
+    ({"lever": "30 mm", "length": "300 mm", "contraction": 0.1}, "muscles.0.path.contraction",
+     "give the length or"),
+    ({"points": {"origin": [0, 0], "insertion": [0.03, 0]}}, "muscles.0.path.points.origin",
+     "lies on the pivot"),
+    ({"table": {"angle": [0, 1], "lever": ["3 mm"] * 3}}, "muscles.0.path.table.lever",
+     "2 angles and 3 levers"),
+    ({"table": {"angle": [0, 0.1], "lever": ["3 mm", "3 mm"]}}, "muscles.0.path.stops",
+     "is stated from 0 to 5.73"),
     ({"lever": "30 mm", "way": 1}, "muscles.0.path.way", "is not a known field"),
 ]  # fmt: skip
 
@@ -38,9 +43,9 @@ def test_what_is_wrong_is_named(path: dict[str, Any], field: str, message: str) 
 
 
 def test_stops_and_muscles_have_to_be_said() -> None:
-    with pytest.raises(mk.Problem, match="stops.min_angle is missing"):
+    with pytest.raises(mk.Problem, match=r"stops.min_angle is missing"):
         mk.Joint([{"path": {"lever": "30 mm"}}], muscle="DMSP-20")
-    with pytest.raises(mk.Problem, match="muscles.1.muscle is missing"):
+    with pytest.raises(mk.Problem, match=r"muscles.1.muscle is missing"):
         mk.Joint(
             [{"muscle": "DMSP-20", "path": {"lever": "30 mm"}}, {"path": {"lever": "-30 mm"}}], stops=STOPS
         )

@@ -76,7 +76,7 @@ def test_paths_that_cannot_be() -> None:
         path_of_table(angle=np.array([0.1, 0.2]), lever=np.array([1.0, 2.0]))
     with pytest.raises(InputError, match="not smooth"):
         path_of_lever(lever=lambda a: 0.03 * ops.absolute(a - 0.3), length=0.3, low=-1.0, high=1.0)
-    with pytest.raises(InputError, match="is stated from -57.3 to 51.57 deg"):
+    with pytest.raises(InputError, match=r"is stated from -57.3 to 51.57 deg"):
         PATHS["levers"].checked(-1.0, 1.2)
-    with pytest.raises(InputError, match="the length at 40.11 deg is"):
+    with pytest.raises(InputError, match=r"the length at 40.11 deg is"):
         constant_lever(lever=0.5, length=0.35).checked(0.0, 1.0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 from math import atan2, cos, hypot, pi, radians, sin, sqrt, tan
 from typing import Any, NamedTuple
 
@@ -67,8 +68,7 @@ def knee(angle: complex) -> complex:
     real = float(np.real(angle))
     ends = [real, *[float(b) for b in KNEE[0] if b > real]]
     area = sum(
-        0.5 * (b - a) * float(weight @ _knee(0.5 * (b - a) * at + 0.5 * (a + b)))
-        for a, b in zip(ends[:-1], ends[1:], strict=True)
+        0.5 * (b - a) * float(weight @ _knee(0.5 * (b - a) * at + 0.5 * (a + b))) for a, b in pairwise(ends)
     )
     return 0.295 - area + 1j * np.imag(angle) * float(_knee(real))
 
