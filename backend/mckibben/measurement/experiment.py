@@ -306,7 +306,7 @@ def shown_value(name: str, value: ExperimentValue) -> str:
     if isinstance(value.value, str):
         return value.value
     if value.unit == "1":
-        return f"{100.0 * value.value:.3g} % of the largest value"
+        return f"{100.0 * value.value:.3g} %{' of the largest value' if name.startswith(ACCURACY) else ''}"
     scale, unit = _SHOWN.get(value.unit, (1.0, value.unit))
     if value.unit == "Pa":
         scale, unit = (1e-5, "bar") if name == "supply" else (1e-2, "mbar")

@@ -18,6 +18,7 @@ Source: virtual work of a tendon, An, Takahashi, Harrigan & Chao, J. Biomech. En
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import hypot, inf
@@ -324,6 +325,7 @@ def _disagreement(angle: Array, length: Array, turned: Array) -> Disagreement:
     )
 
 
+_QUANTITY = re.compile(r"\s*[-+]?[\d.,]+(?:[eE][-+]?\d+)?\s*[^\d\s(*+-]*\s*")  # rather than a formula
 #: What a formula of a lever or a length may contain.
 ANGLE_SYMBOLS = {"angle": "of the joint [rad]"}
 
@@ -339,7 +341,7 @@ def quantity_or_formula(value: float | str | None, field: str) -> float | Functi
     try:
         return float(si(value, "m"))
     except InputError as error:
-        if "angle" not in value:
+        if _QUANTITY.fullmatch(value):
             raise error.at(field) from error
     formula = typed_formula(value, ANGLE_SYMBOLS, field=field)
     return lambda angle: formula({"angle": angle})

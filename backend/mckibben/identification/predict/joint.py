@@ -241,17 +241,33 @@ class JointPredictor(Predictor):
         return self._folded(inner.input_slope(_of_muscles(fit_model), channel), levers)
 
     def at_reversals(self, fit_model: FitModel) -> Reversals | None:
-        """Those of the force of a single muscle, at its lever."""
+        """Those of a single muscle at its lever, with the friction of the bearing."""
         if self._rows.muscles > 1:
             return None
-        found = self._inner.at_reversals(_of_muscles(fit_model))
-        rows = self._inner.task.reversing
+        inner, levers, _ = self._at(fit_model, every=True)
+        found, rows = inner.at_reversals(_of_muscles(fit_model)), inner.task.reversing
         if found is None or rows is None:
             return None
-        _, levers, _ = self._at(fit_model, every=True)
-        lever = levers[0][rows]
-        ends = lever * found.low, lever * found.high
-        return replace(found, measured=self._rows.torque[rows], low=np.minimum(*ends), high=np.maximum(*ends))
+        # The muscle shortens, and the joint turns the way that it pulls; or both the other way.
+        lever, ends = levers[0][rows], []
+        for force, way in ((found.low, 1.0), (found.high, -1.0)):
+            against = self._against(fit_model, way * np.sign(self._rows.lever))[rows]
+            ends.append(lever * force - against)
+        return replace(
+            found,
+            measured=self._rows.torque[rows],
+            low=np.minimum(*ends),
+            high=np.maximum(*ends),
+            unit="N*m",
+        )
+
+    def _against(self, fit_model: FitModel, direction: Array) -> Array:
+        """Torque against the muscles in all rows, in a direction of the joint."""
+        effects = [effect for effect in fit_model.effects if _of_joint(effect)]
+        against = joint.torque_against(
+            model=Model(effects), values=fit_model.values, angle=self._rows.angle, direction=direction
+        )
+        return np.broadcast_to(np.asarray(against, float), (len(self._rows.torque),))
 
     def reading(self, values: Array) -> JointPredictor:
         """This predictor of other torques at the same inputs."""
@@ -319,8 +335,7 @@ class JointPredictor(Predictor):
                 )  # fmt: skip
             levers.append(np.broadcast_to(np.asarray(found.lever, float), (count,))[counted])
             lengths.append(np.broadcast_to(np.asarray(found.length, float), (count,)))
-        against = joint.torque_against(model=model, values=values, angle=rows.angle, direction=rows.direction)
-        against = np.broadcast_to(np.asarray(against, float), (count,))[counted]
+        against = self._against(fit_model, rows.direction)[counted]
         inner = self._inner
         if any({"joint_angle", "joint_lever"} & set(effect.slots) for effect in effects) and rows.paths:
             inner = _at_lengths(inner, np.concatenate(lengths))

@@ -1377,7 +1377,7 @@ def _unknown_unit(reading: Reading) -> Iterator[Question]:
 
 def _load(reading: Reading) -> Iterator[Question]:
     channels, conditions = reading.rows.channels, reading.known.conditions
-    loaded = "load_mass" in conditions or "load_force" in conditions or "force" in channels
+    loaded = "load_mass" in conditions or "load_force" in conditions or {"force", "torque"} & set(channels)
     if not loaded and (set(STROKES) & set(channels) or "pressure" in channels) and "diameter" not in channels:
         yield Question(
             "load",
