@@ -22,6 +22,7 @@ from tests.truth.muscle import Array, Muscle, made
 
 BAR = 1e5
 FOUR = (2.0 * BAR, 3.2 * BAR, 4.4 * BAR, 6.0 * BAR)
+COUNTERS = (4.0 * BAR, 2.5 * BAR, 3.4 * BAR, 1.5 * BAR)  # of the second muscle of a pair, by the swing
 NONE: frozenset[str] = frozenset()
 
 
@@ -118,13 +119,22 @@ def _swings(
     return builder.record(), np.concatenate(angles)
 
 
-def _torque(truth: Truth, record: Record, path: Path, angle: Array, turned: Turned) -> Array:
-    """Torque that the muscle gives at the joint, less what is lost there [N m]."""
-    seen = replace(record, length=_true_length(path, angle, turned))
-    force = truth.force(seen.pressure, seen.length, seen.temperature) + truth.memory(seen)
+def _torque(
+    truth: Truth, record: Record, path: Path, angle: Array, turned: Turned, counter: Array | None = None
+) -> Array:
+    """Torque that the muscles give at the joint, less what is lost there [N m].
+
+    A second muscle of the pressure ``counter`` has the mirrored path and pulls the other way.
+    """
+
+    def pull(pressure: Array, at: Array) -> Array:
+        seen = replace(record, pressure=pressure, length=_true_length(path, at, turned))
+        force = truth.force(seen.pressure, seen.length, seen.temperature) + truth.memory(seen)
+        return turned.lever * path.lever(at) * np.maximum(force, 0.0)
+
     speed = np.gradient(angle, record.time)
-    lost = turned.rub(speed) + turned.weight(angle)
-    return turned.lever * path.lever(angle) * np.maximum(force, 0.0) - lost
+    total = pull(record.pressure, angle) - turned.rub(speed) - turned.weight(angle)
+    return total if counter is None else total - pull(counter, -angle)
 
 
 def _true_length(path: Path, angle: Array, turned: Turned) -> Array:
@@ -135,12 +145,13 @@ def _true_length(path: Path, angle: Array, turned: Turned) -> Array:
 def _case(
     name: str, seed: int, muscle: Muscle, path: Path, rng: np.random.Generator, *,
     turned: Turned = Turned(), hidden: tuple[Hidden, ...] = (), low: float = 0.02, high: float = 0.9,
-    rows: int = 90, timed: bool = True,
+    rows: int = 90, timed: bool = True, pair: bool = False,
 ) -> Case:  # fmt: skip
     truth = Truth(muscle, hidden=hidden)
     record, angle = _swings(path, muscle, truth, low, high, rows)
     keep = record.kept
-    clean = _torque(truth, record, path, angle, turned)
+    counter = np.array(COUNTERS)[record.group] if pair else None
+    clean = _torque(truth, record, path, angle, turned, counter)
     full = float(np.max(np.abs(clean[keep])))
     level = float(rng.uniform(1e-3, 2e-3)) * full
     pressure = record.pressure[keep]
@@ -149,20 +160,25 @@ def _case(
     for part in hidden:
         shown = part.reading(dict(shown)) if part.reading else shown
     pressure_read = shown["pressure"][keep] + rng.normal(0.0, 2e2, len(pressure))
+    others = {"pressure": counter, "time": record.time, "force": np.zeros_like(record.time)}
+    for part in hidden if pair else ():
+        others = part.reading(dict(others)) if part.reading else others
     torque = clean[keep] + rng.normal(0.0, level, len(pressure))
     # The noise of the pressure goes through the muscle; what is left is that of the torque.
-    slope = (_torque(truth, replace(record, pressure=record.pressure + 100.0), path, angle, turned) - clean)[
-        keep
-    ] / 100.0
+    raised = _torque(truth, replace(record, pressure=record.pressure + 100.0), path, angle, turned, counter)
+    slope = (raised - clean)[keep] / 100.0
     moved = slope * (pressure_read - shown["pressure"][keep])
     noise = rms(torque - clean[keep] - moved)
     ratios = []
     if turned.accepted:
-        ratios.append(_ratio(truth, record, path, angle, turned, written, keep, noise))
+        ratios.append(_ratio(truth, record, path, angle, turned, written, keep, noise, counter))
     for index, part in enumerate(hidden):
         other = truth.without(index)
         seen = part.reading(dict(shown)) if part.reading else {"pressure": record.pressure}
-        lacking = _torque(other, replace(record, pressure=seen["pressure"]), path, angle, turned)
+        against = (
+            part.reading({**others, "pressure": counter})["pressure"] if pair and part.reading else counter
+        )
+        lacking = _torque(other, replace(record, pressure=seen["pressure"]), path, angle, turned, against)
         ratios.append(rms((clean - lacking)[keep]) / noise)
     lines = [f"# {key}: {value}" for key, value in path.said.items()]
     lines.append(f"# rest length: {muscle.nominal * 1e3:.6g} mm")
@@ -171,6 +187,8 @@ def _case(
         "Angle [deg]": np.degrees(written),
         "Torque [N*m]": torque,
     }
+    if pair:
+        columns["Pressure 2 [bar]"] = others["pressure"][keep] * 1e-5
     if timed:
         columns = {"Time [s]": record.time[keep], **columns}
     if not path.said:
@@ -210,12 +228,12 @@ def _case(
 
 def _ratio(
     truth: Truth, record: Record, path: Path, angle: Array, turned: Turned, written: Array, keep: Array,
-    noise: float,
+    noise: float, counter: Array | None,
 ) -> float:  # fmt: skip
     """What the joint hides over the noise: against a joint that is as it is written."""
     plain = np.interp(record.time, record.time[keep], written)
-    as_written = _torque(truth, record, path, plain, Turned())
-    return rms((_torque(truth, record, path, angle, turned) - as_written)[keep]) / noise
+    as_written = _torque(truth, record, path, plain, Turned(), counter)
+    return rms((_torque(truth, record, path, angle, turned, counter) - as_written)[keep]) / noise
 
 
 def _rubbing(torque: float, rise: float) -> Callable[[Array], Array]:
@@ -319,3 +337,43 @@ def _(rng: np.random.Generator, seed: int) -> Case:
     m = made(size(seed), rng)
     path = strut(m, 0.12 * m.nominal)
     return _case("joint-nothing-map", seed, m, path, rng, low=-0.9, high=0.5, timed=False)
+
+
+@BOOK.recipe("joint-lever-pair")
+def _(rng: np.random.Generator, seed: int) -> Case:
+    m = made(size(seed, 1), rng)
+    path = pulley(m, 0.12 * m.nominal, 0.09)
+    turned = Turned(accept("lever_scale"), lever=1.07, name="a cable above its groove")
+    return _case("joint-lever-pair", seed, m, path, rng, turned=turned, low=-0.6, high=0.6, pair=True)
+
+
+@BOOK.recipe("joint-angle-zero-pair")
+def _(rng: np.random.Generator, seed: int) -> Case:
+    m = made(size(seed), rng)
+    path = pulley(m, 0.12 * m.nominal, 0.09)
+    turned = Turned(accept("angle_offset"), angle=radians(2.5), name="an index mark beside its zero")
+    return _case("joint-angle-zero-pair", seed, m, path, rng, turned=turned, low=-0.6, high=0.6, pair=True)
+
+
+@BOOK.recipe("joint-bearing-pair")
+def _(rng: np.random.Generator, seed: int) -> Case:
+    m = made(size(seed, 2), rng)
+    path = cam(m, 0.12 * m.nominal, 0.3, 0.09)
+    rub = _rubbing(0.01 * m.blocked * 0.12 * m.nominal, 0.15)
+    turned = Turned(accept("bearing_friction"), rub=rub, name="a journal that rubs")
+    return _case("joint-bearing-pair", seed, m, path, rng, turned=turned, low=-0.6, high=0.6, pair=True)
+
+
+@BOOK.recipe("joint-ends-pair")
+def _(rng: np.random.Generator, seed: int) -> Case:
+    m = made(size(seed, 1), rng)
+    ends = geometry.rounded_ends(m, 2.2, "end_caps", "contraction_factor")
+    path = pulley(m, 0.12 * m.nominal, 0.09)
+    return _case("joint-ends-pair", seed, m, path, rng, hidden=(ends,), low=-0.6, high=0.6, pair=True)
+
+
+@BOOK.recipe("joint-nothing-pair")
+def _(rng: np.random.Generator, seed: int) -> Case:
+    m = made(size(seed), rng)
+    path = cam(m, 0.12 * m.nominal, 0.3, 0.09)
+    return _case("joint-nothing-pair", seed, m, path, rng, low=-0.6, high=0.6, pair=True)
