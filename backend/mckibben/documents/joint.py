@@ -290,7 +290,7 @@ def _path(stated: PathInput, rest_length: float, low: float, high: float) -> Mus
         return _table(stated, rest_length)
     if stated.lever is None:
         length = quantity_or_formula(stated.length, "length")
-        if isinstance(length, float):
+        if not callable(length):
             raise InputError(
                 "a constant length has no lever", field="length", hint="a formula, e.g. '0.3 - 0.03*angle'"
             )
@@ -298,14 +298,14 @@ def _path(stated: PathInput, rest_length: float, low: float, high: float) -> Mus
     at_zero = rest_length
     if stated.length is not None:
         at_zero = quantity_or_formula(stated.length, "length")
-        if not isinstance(at_zero, float):
+        if callable(at_zero):
             raise InputError(
                 "with a lever the length is that at the angle 0", field="length", hint="e.g. '300 mm'"
             )
     lever = quantity_or_formula(stated.lever, "lever")
-    if isinstance(lever, float):
-        return constant_lever(lever=lever, length=at_zero)
-    return path_of_lever(lever=lever, length=at_zero, low=min(low, 0.0), high=max(high, 0.0))
+    if callable(lever):
+        return path_of_lever(lever=lever, length=at_zero, low=min(low, 0.0), high=max(high, 0.0))
+    return constant_lever(lever=lever, length=at_zero)
 
 
 def _table(stated: PathInput, rest_length: float) -> MusclePath:
@@ -322,7 +322,7 @@ def _table(stated: PathInput, rest_length: float) -> MusclePath:
     at_zero: float | Callable[[Value], Value] = rest_length
     if stated.length is not None:
         at_zero = quantity_or_formula(stated.length, "length")
-        if not isinstance(at_zero, float) or table.length is not None:
+        if callable(at_zero) or table.length is not None:
             raise InputError(
                 "a table with lengths has no length at the angle 0"
                 if table.length is not None
@@ -330,7 +330,6 @@ def _table(stated: PathInput, rest_length: float) -> MusclePath:
                 field="length",
                 hint="leave it out" if table.length is not None else "e.g. '300 mm'",
             )
-    assert isinstance(at_zero, float)  # noqa: S101 - checked
     return path_of_table(
         angle=np.array(table.angle), lever=columns["lever"], length=columns["length"], length_at_zero=at_zero
     )

@@ -272,7 +272,7 @@ def joint_figure(result: JointResult, title: str) -> Figure:
         result.torque, result.pressures, family(len(result.pressures)), strict=True
     ):
         name = " / ".join(f"{pressure / 1e5:g}" for pressure in own) + " bar"
-        add_line(figure, angle.scale.of(result.angle), torque.scale.of(values), name, colour=colour)
+        add_line(figure, result.angle / angle.scale.factor, values / torque.scale.factor, name, colour=colour)
     names = [f"{each.label} [{each.scale.unit}]" for each in (angle, torque)]
     name_axes(figure, names[0], names[1:])
     return figure

@@ -38,7 +38,7 @@ class JointStatics(ResultOf[JointResult], JointResult):
         """
         sets, angles = len(self.pressures), len(self.angle)
         columns: dict[str, FloatArray] = {
-            "set": np.repeat(np.arange(sets), angles),
+            "set": np.repeat(np.arange(float(sets)), angles),
             "angle_rad": np.tile(self.angle, sets),
             "torque_N*m": self.torque.ravel(),
             "stiffness_N*m/rad": self.stiffness.ravel(),

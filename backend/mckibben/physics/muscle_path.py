@@ -26,12 +26,12 @@ from math import hypot, inf
 import numpy as np
 import symengine as se
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline, PchipInterpolator, PPoly
 
 from mckibben.physics import ops
 from mckibben.physics.custom import typed_formula
 from mckibben.physics.errors import InputError
 from mckibben.physics.ops import Value
+from mckibben.physics.pieces import monotone, spline
 from mckibben.physics.units import si
 
 Array = NDArray[np.float64]
@@ -274,14 +274,13 @@ def path_of_table(
     if lever is None:
         if length is None:
             raise InputError("a table has levers or lengths", field="table.lever", hint="e.g. ['30 mm', ...]")
-        spline: PPoly = CubicSpline(angle, length)
-        by_length = spline.derivative()
-        bent = spline.derivative(2)
-        return MusclePath(_pieces(spline), _negative(_pieces(by_length)), _negative(_pieces(bent)), low, high)
-    levers: PPoly = PchipInterpolator(angle, lever) if len(angle) > 2 else CubicSpline(angle, lever)
+        along = spline(x=angle, y=length)
+        lever_of = along.derivative().negative()
+        return MusclePath(along, lever_of, lever_of.derivative(), low, high)
+    levers = monotone(x=angle, y=lever)
     if length is not None and np.all(lever >= 0.0) and float(np.polyfit(angle, length, 1)[0]) > 0.0:
-        levers = PPoly(-levers.c, levers.x)
-    turned = levers.antiderivative()
+        levers = levers.negative()
+    turned = levers.integral()
     disagreement = None
     if length is not None:
         constant = float(np.mean(length + turned(angle)))
@@ -292,20 +291,7 @@ def path_of_table(
         raise InputError(
             "levers alone do not say how long the muscle is", field="length", hint="e.g. '300 mm' at 0 deg"
         )
-    integral = _pieces(turned)
-    return MusclePath(
-        lambda at: constant - integral(at),
-        _pieces(levers),
-        _pieces(levers.derivative()),
-        low,
-        high,
-        disagreement,
-    )
-
-
-def disagreement_of(*, angle: Array, length: Array, path: MusclePath) -> Disagreement:
-    """How far stated lengths [m] at angles [rad] are from those of a path, up to a constant."""
-    return _disagreement(np.asarray(angle), np.asarray(length), -np.asarray(path.length(np.asarray(angle))))
+    return MusclePath(lambda at: constant - turned(at), levers, levers.derivative(), low, high, disagreement)
 
 
 def _disagreement(angle: Array, length: Array, turned: Array) -> Disagreement:
@@ -325,7 +311,7 @@ def _disagreement(angle: Array, length: Array, turned: Array) -> Disagreement:
     )
 
 
-_QUANTITY = re.compile(r"\s*[-+]?[\d.,]+(?:[eE][-+]?\d+)?\s*[^\d\s(*+-]*\s*")  # rather than a formula
+_QUANTITY = re.compile(r"\s*[-+]?[\d.,]+(?:[eE][-+]?\d+)?\s*[^\d\s(*+/-]*\s*")  # rather than a formula
 #: What a formula of a lever or a length may contain.
 ANGLE_SYMBOLS = {"angle": "of the joint [rad]"}
 
@@ -359,10 +345,10 @@ def path_on_lever(lever: str, *, length: float, low: float, high: float) -> Musc
         InputError: the text is neither; a lever that is not smooth, a length that is not above 0.
     """
     given = quantity_or_formula(lever, "lever")
-    if isinstance(given, float):
-        path = constant_lever(lever=given, length=length)
-    else:
+    if callable(given):
         path = path_of_lever(lever=given, length=length, low=min(low, 0.0), high=max(high, 0.0))
+    else:
+        path = constant_lever(lever=given, length=length)
     return path.checked(low, high)
 
 
@@ -383,24 +369,3 @@ def _derivative(of: Function) -> Function:
 
 def _negative(of: Function) -> Function:
     return lambda angle: -of(angle)
-
-
-def _pieces(of: PPoly) -> Function:
-    """Polynomials between breaks, on numbers, arrays and symbols; the outermost go on beyond the ends."""
-    breaks, coefficients = of.x.tolist(), of.c.T.tolist()
-
-    def at(angle: Value) -> Value:
-        if not ops.is_symbolic(angle):
-            return of(angle)
-        values = []
-        for begin, own in zip(breaks, coefficients, strict=False):
-            value: Value = own[0]
-            for coefficient in own[1:]:
-                value = value * (angle - begin) + coefficient
-            values.append(value)
-        found = values[-1]
-        for end, value in reversed(list(zip(breaks[1:-1], values, strict=False))):
-            found = ops.where(ops.greater(end, angle), value, found)
-        return found
-
-    return at

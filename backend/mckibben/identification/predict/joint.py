@@ -343,9 +343,8 @@ class JointPredictor(Predictor):
 
     def _folded(self, forces: Array, levers: Sequence[Array]) -> Array:
         """Sum of forces times levers, of forces stacked over the muscles."""
-        return sum(
-            (lever * part for lever, part in zip(levers, np.split(forces, len(levers)), strict=True)), 0.0
-        )
+        parts = zip(levers, np.split(forces, len(levers)), strict=True)
+        return np.sum([lever * part for lever, part in parts], axis=0)
 
 
 def _at_lengths(inner: QuasistaticPredictor, length: Array) -> QuasistaticPredictor:
