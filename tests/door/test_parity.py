@@ -92,7 +92,9 @@ def inverse(run: Run, http: Http) -> list[dict[str, Any]]:
 
 JOINT = {
     "muscle": "DMSP-20:300mm",
-    "muscles": [{"path": {"lever": "30 mm", "contraction": "10 %"}}, {"path": {"lever": -0.03, "contraction": 0.1}}],
+    "muscles": [
+        {"path": {"lever": "30 mm", "contraction": "10 %"}}, {"path": {"lever": -0.03, "contraction": 0.1}},
+    ],
     "stops": {"min_angle": "-30 deg", "max_angle": "30 deg"},
 }  # fmt: skip
 

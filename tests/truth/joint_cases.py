@@ -208,7 +208,7 @@ def _case(
     answers = [*([turned.accepted] if turned.accepted else []), *(part.accepted for part in hidden)]
     return Case(
         name=name,
-        kind="isobaric",
+        kind="static" if pair else "isobaric",
         hidden=tuple(answers),
         unknown=None,
         muscle=muscle.document(),

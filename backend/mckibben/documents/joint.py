@@ -289,7 +289,7 @@ def _path(stated: PathInput, rest_length: float, low: float, high: float) -> Mus
     if stated.table is not None:
         return _table(stated, rest_length)
     if stated.lever is None:
-        length = quantity_or_formula(stated.length, "length")
+        length = quantity_or_formula(value=stated.length, field="length")
         if not callable(length):
             raise InputError(
                 "a constant length has no lever", field="length", hint="a formula, e.g. '0.3 - 0.03*angle'"
@@ -297,12 +297,12 @@ def _path(stated: PathInput, rest_length: float, low: float, high: float) -> Mus
         return path_of_length(length=length, low=low, high=high)
     at_zero = rest_length
     if stated.length is not None:
-        at_zero = quantity_or_formula(stated.length, "length")
+        at_zero = quantity_or_formula(value=stated.length, field="length")
         if callable(at_zero):
             raise InputError(
                 "with a lever the length is that at the angle 0", field="length", hint="e.g. '300 mm'"
             )
-    lever = quantity_or_formula(stated.lever, "lever")
+    lever = quantity_or_formula(value=stated.lever, field="lever")
     if callable(lever):
         return path_of_lever(lever=lever, length=at_zero, low=min(low, 0.0), high=max(high, 0.0))
     return constant_lever(lever=lever, length=at_zero)
@@ -321,7 +321,7 @@ def _table(stated: PathInput, rest_length: float) -> MusclePath:
         columns[name] = None if values is None else np.array(values)
     at_zero: float | Callable[[Value], Value] = rest_length
     if stated.length is not None:
-        at_zero = quantity_or_formula(stated.length, "length")
+        at_zero = quantity_or_formula(value=stated.length, field="length")
         if callable(at_zero) or table.length is not None:
             raise InputError(
                 "a table with lengths has no length at the angle 0"

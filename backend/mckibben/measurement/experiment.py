@@ -415,7 +415,7 @@ def path_of_joint(conditions: Mapping[str, float | str], angle: NDArray) -> Musc
     if LENGTH_AT_ZERO not in conditions:
         return None
     return path_on_lever(
-        str(conditions[LEVER]),
+        lever=str(conditions[LEVER]),
         length=float(conditions[LENGTH_AT_ZERO]),
         low=float(np.min(angle)),
         high=float(np.max(angle)),

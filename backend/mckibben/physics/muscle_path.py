@@ -316,7 +316,7 @@ _QUANTITY = re.compile(r"\s*[-+]?[\d.,]+(?:[eE][-+]?\d+)?\s*[^\d\s(*+/-]*\s*")  
 ANGLE_SYMBOLS = {"angle": "of the joint [rad]"}
 
 
-def quantity_or_formula(value: float | str | None, field: str) -> float | Function:
+def quantity_or_formula(*, value: float | str | None, field: str) -> float | Function:
     """A length [m] from a number or quantity, or a function of the angle from a formula in m and rad.
 
     Raises:
@@ -333,7 +333,7 @@ def quantity_or_formula(value: float | str | None, field: str) -> float | Functi
     return lambda angle: formula({"angle": angle})
 
 
-def path_on_lever(lever: str, *, length: float, low: float, high: float) -> MusclePath:
+def path_on_lever(*, lever: str, length: float, low: float, high: float) -> MusclePath:
     """The path of a lever as a text: "30 mm", or a formula "0.03 - 0.005*angle**2".
 
     Args:
@@ -344,7 +344,7 @@ def path_on_lever(lever: str, *, length: float, low: float, high: float) -> Musc
     Raises:
         InputError: the text is neither; a lever that is not smooth, a length that is not above 0.
     """
-    given = quantity_or_formula(lever, "lever")
+    given = quantity_or_formula(value=lever, field="lever")
     if callable(given):
         path = path_of_lever(lever=given, length=length, low=min(low, 0.0), high=max(high, 0.0))
     else:

@@ -95,9 +95,9 @@ class KnownInputs:
     length: Array
     contraction: Array
     pressure: Array
-    angle: Array | None
     velocity: Array
     direction: Array
+    angle: Array | None = None
 
 
 def inputs_of(comparison: Comparison) -> KnownInputs:
