@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mckibben.documents.joint import JointAngle
+from mckibben.documents.joint_parts import JointAngle
 from mckibben.documents.problems import validated
 from mckibben.documents.quantity import PositivePressure, Pressure, QuantityField
 from mckibben.documents.shorthand import LIST_TEXT
