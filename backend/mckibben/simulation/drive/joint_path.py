@@ -15,6 +15,7 @@ from numpy.polynomial import Chebyshev, Polynomial
 from numpy.typing import NDArray
 
 from mckibben.physics.drive_terms import PATH_DEGREE
+from mckibben.physics.errors import InputError
 from mckibben.physics.muscle_path import MusclePath
 
 Array = NDArray[np.float64]
@@ -87,6 +88,24 @@ class JointPath:
                 padded[: len(polynomial.coef)] = polynomial.coef
                 table |= {f"{begin}{name}_{power}": float(value) for power, value in enumerate(padded)}
         return table
+
+
+def refuse_path(path: JointPath | None, what: str) -> None:
+    """Refuse what is made for strokes along a line or on a pulley.
+
+    Args:
+        path: of a drive.
+        what: that is asked for, to be read before "of a joint".
+
+    Raises:
+        InputError: the drive has a path.
+    """
+    if path is not None:
+        raise InputError(
+            f"{what} of a joint whose levers change with its angle is not there yet",
+            field="load.arrangement",
+            hint='a pair on a pulley: "arrangement": "antagonist"',
+        )
 
 
 def joint_path(
