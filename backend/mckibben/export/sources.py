@@ -82,8 +82,8 @@ PATH_WORDS: Mapping[str, tuple[str, str, str]] = {
         name,
         (
             "m",
-            f"Coefficient {name.rpartition('_')[2]} of the {'lever' if '_lever_' in name else 'length'} of the "
-            f"{'second' if name.startswith('counter_') else 'first'} muscle.",
+            f"Coefficient {name.rpartition('_')[2]} of the {'lever' if '_lever_' in name else 'length'} "
+            f"of the {'second' if name.startswith('counter_') else 'first'} muscle.",
             "load.joint.muscles",
         ),
     )

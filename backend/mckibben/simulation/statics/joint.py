@@ -22,7 +22,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 from mckibben.physics import ideal
 from mckibben.physics.model import ROOM_TEMPERATURE
@@ -211,6 +210,8 @@ class Joint:
 
         A stop that the torques press the joint against is one of them.
         """
+        from scipy.optimize import brentq
+
         grid = np.linspace(self.low, self.high, _GRID)
 
         def total(angle: Array | float) -> Array:
@@ -273,6 +274,8 @@ class Joint:
         turns = np.flatnonzero(np.diff(np.sign(values - wanted)) != 0.0)
         if abs(values[exact] - wanted) <= _SAME * max(abs(wanted), 1.0) or not len(turns):
             return PressuresFor((float(first[exact]), float(second[exact])), least, most)
+        from scipy.optimize import brentq
+
         place = int(turns[0])
         own = float(brentq(off, first[place], first[place + 1], xtol=1e-7, rtol=1e-14))
         other = self._balancing(np.array([angle]), np.array([own]), torque, highest)
