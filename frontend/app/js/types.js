@@ -87,7 +87,7 @@
 
 /** Supply, valve, tube, load, command, controller, …; numbers in SI. @typedef {Record<string, any>} Drive */
 /** How the load of a drive is arranged.
- * @typedef {"hanging" | "inclined" | "horizontal" | "lever" | "antagonist"} DriveArrangement */
+ * @typedef {"hanging" | "inclined" | "horizontal" | "lever" | "antagonist" | "joint"} DriveArrangement */
 /** A whole drive document, muscle and effects included. @typedef {{name: string, drive: Drive}} Pin */
 /** The quantity of the plot that shows one of several. @typedef {"flow" | "force" | "valve"} Lower */
 /** What the phase plot shows when it is zoomed.
