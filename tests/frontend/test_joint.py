@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import csv
 import io
+import json
 import math
 import random
+from pathlib import Path
 
 from playwright.sync_api import Page, expect
 
 from tests.frontend.comparing import braid_force, choose, diagnosed, file, use
 from tests.frontend.diagnoses import remember
-from tests.frontend.views import SIZES, open_compare
+from tests.frontend.views import SIZES, link_to, load, marked, open_compare
 
+ROOT = Path(__file__).resolve().parents[2]
 RUB, NOISE = 0.5, 0.03  # N m
 
 
@@ -69,3 +72,12 @@ def test_from_a_file_of_a_joint_to_its_bearing_in_two_actions(page: Page) -> Non
         page.set_viewport_size({"width": width, "height": height})
         expect(page.locator("#overlay-torque")).to_be_visible()
         assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+
+
+def test_a_link_to_a_run_of_a_joint_shows_its_angle_and_torque(page: Page) -> None:
+    knee = json.loads((ROOT / "presets/drives/joint-knee.json").read_text())["document"]
+    load(page, link_to({"schema": 1, "view": "transient", "design": {}, "transient": {"drive": knee}}))
+    marked(page, "[data-ran]", 120_000)
+    for name in ("angle", "torque"):
+        assert page.locator(f"#run-{name} .js-line").count() >= 1, name
+    expect(page.locator(".transient .notice")).to_be_hidden()

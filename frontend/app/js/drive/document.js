@@ -137,12 +137,15 @@ function converted(part, path, whole) {
   return ofPosition && /[a-z%]/i.test(part) ? statedGain(key, si) : si;
 }
 
+/** Levels of a drive: the table of the path of a muscle of a joint is the deepest. */
+const MOST_DEPTH = 10;
+
 /** Only numbers, texts, lists and objects, not nested deeply.
  * @param {unknown} x @param {number} [depth] @returns {boolean} */
 function isPlain(x, depth = 0) {
   if (x === null || typeof x === "boolean" || typeof x === "string") return true;
   if (typeof x === "number") return Number.isFinite(x);
-  if (depth > 6 || typeof x !== "object") return false;
+  if (depth > MOST_DEPTH || typeof x !== "object") return false;
   return Object.values(x).every((/** @type {unknown} */ one) => isPlain(one, depth + 1));
 }
 
