@@ -23,12 +23,21 @@ from tests.truth import (
     elastic_cases,
     friction_cases,
     joint_cases,
+    joint_more_cases,
     mixed_cases,
     sensor_cases,
 )
 from tests.truth.cases import BOOK, Case
 
-MODULES = (elastic_cases, friction_cases, sensor_cases, drive_cases, mixed_cases, joint_cases)
+MODULES = (
+    elastic_cases,
+    friction_cases,
+    sensor_cases,
+    drive_cases,
+    mixed_cases,
+    joint_cases,
+    joint_more_cases,
+)
 SEEDS = (0, 1, 2)
 
 

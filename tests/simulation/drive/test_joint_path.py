@@ -241,3 +241,25 @@ def test_a_constant_lever_is_a_pulley() -> None:
     assert path is not None
     for name, scale in (("angle", 1.0), ("torque", 30.0), ("stiffness", 30.0)):
         assert getattr(path, name) == pytest.approx(getattr(pulley, name), abs=1e-9 * scale)
+
+
+FOLLOWING = (
+    ("joint-cam", -5, 10, 2.5, 15, 0.03),
+    ("joint-spring", 25, 40, 2.5, 15, 0.03),
+    ("joint-knee", -50, -35, 0.2, 2, 0.01),
+)
+
+
+@pytest.mark.parametrize(("name", "low", "high", "kp", "ki", "kd"), FOLLOWING)
+def test_a_controller_follows_the_angle_over_a_changing_lever(
+    name: str, low: int, high: int, kp: float, ki: float, kd: float
+) -> None:
+    angle = {"shape": "step", "initial": f"{low} deg", "level": f"{high} deg", "at": "3 s"}
+    drive = mk.Drive.load(name)
+    values = {key: value for key, value in drive.document.items() if key not in ("command", "controller")}
+    control = {"type": "pid", "kp": kp, "ki": ki, "kd": kd, "sample_time": "2 ms", "angle": angle}
+    run = mk.Drive(**{**values, "controller": control, "duration": "6 s"}).run().details
+    assert run.joint is not None
+    for moment, wanted in ((2.99, low), (6.0, high)):
+        found = run.joint.angle[np.searchsorted(run.time, moment)]
+        assert found == pytest.approx(radians(wanted), abs=radians(0.3)), moment
