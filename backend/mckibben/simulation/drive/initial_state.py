@@ -206,6 +206,9 @@ class _Search:
         for index in self._places("gas_mass"):
             self.packed[index] = self.specific * rough
         self.stroke = self.names.index("stroke")
+        table = dict(zip(compiled.model.parameters, parameters, strict=True))
+        #: Distance of the fittings at stroke 0 [m], unless they lie on a path.
+        self.middle = float(table["nominal_length"] - table["precontraction"])
         self.lengths = self._places("length")
         self.net = compiled.model.output_names.index("net_force")
         self._outputs = np.empty(compiled.codes.outputs.width)
@@ -228,7 +231,9 @@ class _Search:
     def net_force(self, stroke: float) -> float:
         """Force along the stroke without that of the stops [N]."""
         self.packed[self.stroke] = stroke
-        for place, length in zip(self.lengths, self.drive.lengths(stroke), strict=True):
+        straight = (self.middle - stroke, self.middle + stroke)
+        lengths = straight if self.drive.path is None else self.drive.lengths(stroke)
+        for place, length in zip(self.lengths, lengths, strict=False):
             self.packed[place] = float(length)
         self._call_outputs()
         return float(self._outputs[self.net])
