@@ -66,8 +66,10 @@ def air_ratio(annotated: AnnotatedDrive, result: SimulationResult) -> float:
     dead = min(drive.fitting_volume, MOST_DEAD_VOLUME)
     contraction = result.contraction
     sides = [(contraction, result.pressure, result.supply_flow, result.exhaust_flow)]
-    if joint is not None:
+    if joint is not None and joint.counter_pressure is not None:
         mirrored = 2 * drive.precontraction - contraction
+        if drive.path is not None:
+            mirrored = 1 - drive.lengths(result.position)[1] / drive.muscle.nominal_length
         sides.append(
             (mirrored, joint.counter_pressure, joint.counter_supply_flow, joint.counter_exhaust_flow)
         )

@@ -26,7 +26,8 @@ def scenarios() -> dict[str, Scenario]:
 
 def test_there_is_a_preset_for_each_scenario_and_no_other_of_the_paper() -> None:
     studio = shipped_studio()
-    assert {preset.id for preset in studio.library.list("drives")} == {*SCENARIOS, "joint-20"}
+    joints = {"joint-20", "joint-cam", "joint-knee", "joint-spring"}
+    assert {preset.id for preset in studio.library.list("drives")} == {*SCENARIOS, *joints}
 
 
 @pytest.mark.parametrize("name", SCENARIOS)

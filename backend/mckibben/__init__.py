@@ -1,8 +1,8 @@
 """mckibben: a design studio for pneumatic-muscle drives, and a library.
 
-``import mckibben as mk``: models (`Model`), measurements (`read`, `Measurement`), drives (`Drive`), sizing
-(`size`), studies (`study`), and what there is (`presets`, `effects`). Numbers are SI, texts have a unit,
-pressures are gauge; bad input raises `Problem`. `__all__` and, for those who write effects,
+``import mckibben as mk``: models (`Model`), measurements (`read`, `Measurement`), drives (`Drive`), joints
+(`Joint`), sizing (`size`), studies (`study`), and what there is (`presets`, `effects`). Numbers are SI, texts
+have a unit, pressures are gauge; bad input raises `Problem`. `__all__` and, for those who write effects,
 `mckibben.effects` are all that is public; the other modules are how it works, and change.
 """
 
@@ -17,6 +17,7 @@ from mckibben.version import __version__
 
 if TYPE_CHECKING:
     from mckibben.door.drive import Drive
+    from mckibben.door.joint import Joint
     from mckibben.door.listing import effects, presets
     from mckibben.door.measurement import Measurement, read
     from mckibben.door.model import Model, load
@@ -27,12 +28,13 @@ if TYPE_CHECKING:
     from mckibben.door.workspace import use_effects, use_presets
 
 __all__ = [
-    "Drive", "Measurement", "Model", "Problem", "Project", "__version__", "effects", "load", "presets",
-    "read", "size", "study", "use_effects", "use_presets",
+    "Drive", "Joint", "Measurement", "Model", "Problem", "Project", "__version__", "effects", "load",
+    "presets", "read", "size", "study", "use_effects", "use_presets",
 ]  # fmt: skip
 
 _MODULES = {
     "Drive": "drive",
+    "Joint": "joint",
     "Measurement": "measurement",
     "Model": "model",
     "Problem": "problem",

@@ -91,11 +91,14 @@ def subject_and_start(case: Case, studio: Any) -> tuple[Any, Any]:
     from mckibben.documents.start_model import stated_muscle
     from mckibben.identification.predict import predictor_of
     from mckibben.identification.predict.fit_model import FitModel
+    from mckibben.measurement.experiment import corrected, file_experiment
     from mckibben.measurement.points import Points, joined
     from mckibben.measurement.reading import read_measurement
 
     files = [Points(read_measurement(text.encode(), name)) for name, text in case.files.items()]
     measurement = joined(files).measurement
+    if "torque" in measurement.columns:  # length and force of its muscle follow from what the file states
+        measurement = corrected(measurement, file_experiment(measurement.stated))
     if case.drive is not None:
         document = {"effects": case.effects, **case.drive}
         drive = drive_of(read_document(document, "the drive"), studio).drive

@@ -15,6 +15,7 @@ from mckibben.door.comparison import Comparison
 from mckibben.door.curves import Curves
 from mckibben.door.diagnosis import Diagnosis
 from mckibben.door.drive import Run
+from mckibben.door.joint import JointStatics
 from mckibben.door.linear import LinearView
 from mckibben.door.sizing import Proposal, Sizing
 from mckibben.door.study import Study
@@ -22,6 +23,7 @@ from mckibben.door.study import Study
 PACKAGE = Path(mk.__file__).parent
 NAMES = {
     "Drive",
+    "Joint",
     "Measurement",
     "Model",
     "Problem",
@@ -41,6 +43,8 @@ CLASSES = (
     mk.Measurement,
     mk.Project,
     mk.Drive,
+    mk.Joint,
+    JointStatics,
     Curves,
     Comparison,
     Diagnosis,

@@ -90,6 +90,29 @@ def inverse(run: Run, http: Http) -> list[dict[str, Any]]:
     ]
 
 
+JOINT = {
+    "muscle": "DMSP-20:300mm",
+    "muscles": [
+        {"path": {"lever": "30 mm", "contraction": "10 %"}}, {"path": {"lever": -0.03, "contraction": 0.1}},
+    ],
+    "stops": {"min_angle": "-30 deg", "max_angle": "30 deg"},
+}  # fmt: skip
+
+
+def joints(run: Run, http: Http) -> list[dict[str, Any]]:
+    asked = {"pressures": ["4 bar, 2 bar"], "angle": "10 deg", "stiffness": "22 N*m/rad"}
+    long = {"pressures": [[4e5, 2e5]], "angle": "10 deg", "stiffness": 22.0}
+    file = write("joint.json", {**JOINT, "kind": "joint"})
+    words = [word for name in ("angle", "stiffness") for word in (f"--{name}", asked[name])]
+    parts = {name: part for name, part in JOINT.items() if name != "muscles"}
+    joint = mk.Joint(JOINT["muscles"], **parts)
+    return [
+        said(run, "joint", file, "--pressures", "4 bar, 2 bar", *words),
+        *(joint.statics(**each).to_dict() for each in (asked, long)),
+        *(http("joints", {"joint": JOINT, **each}) for each in (asked, long)),
+    ]
+
+
 def simulations(run: Run, http: Http) -> list[dict[str, Any]]:
     preset = {"schema": 1, "kind": "drive", "id": "x", "title": "x", "document": LONG, "references": []}
     return [
@@ -141,7 +164,7 @@ VOLATILE = {
 }
 
 
-@pytest.mark.parametrize("use_case", [curves, inverse, simulations, studies, sizings, comparisons])
+@pytest.mark.parametrize("use_case", [curves, inverse, joints, simulations, studies, sizings, comparisons])
 def test_every_door_and_form_says_the_same(use_case: Any, run: Run, http: Http) -> None:
     first, *others = use_case(run, http)
     shared = first.keys() - VOLATILE

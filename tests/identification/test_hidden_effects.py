@@ -20,6 +20,7 @@ FOUND = (
     "force-zero-isobaric",
     "length-zero-diameter",
     "silencer-steps",
+    "joint-angle-zero-cam",
 )
 LONG = ("coulomb-isobaric", "delay-pulses")
 TOGETHER = (
@@ -30,6 +31,7 @@ NOTHING = (
     "nothing-isobaric",
     "nothing-thread-form-map",
     "nothing-steps",
+    "joint-nothing-pair",
 )
 UNKNOWN = ("unknown-magnet-map",)
 

@@ -75,6 +75,10 @@ REQUESTS: dict[tuple[str, str], tuple[str, dict[str, Any]]] = {
         "/api/inverse", {"json": {"question": "working_range", "muscle": MINE, "load": "100 N",
                                   "pressure": "3 bar"}},
     ),
+    ("POST", "/api/joints"): (
+        "/api/joints", {"json": {"joint": {"muscle": MINE, "muscles": [{"path": {"lever": "30 mm"}}],
+                                           "stops": {"min_angle": 0.0, "max_angle": 0.5}}}},
+    ),
     ("POST", "/api/sizings"): ("/api/sizings", {"json": TASK}),
     ("POST", "/api/sizings/reports"): ("/api/sizings/reports", {"json": {"task": TASK}}),
     ("POST", "/api/studies"): ("/api/studies", {"json": STUDY}),

@@ -22,6 +22,7 @@ PATHS = {
     "/api/order-codes/{code}": {"get"},
     "/api/curves": {"post"},
     "/api/inverse": {"post"},
+    "/api/joints": {"post"},
     "/api/measurements": {"put"},
     "/api/measurements/preview": {"post"},
     "/api/measurements/{measurement_id}": {"get"},

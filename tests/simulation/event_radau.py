@@ -40,7 +40,7 @@ class EventRadau:
         self.kinds = self.compiled.model.switches
         self.bounce = drive.restitution
         self.low, self.high = drive.stops
-        self.middle = drive.muscle.nominal_length * (1.0 - drive.precontraction)
+        self.drive = drive
 
     def arguments(self, y: np.ndarray, inputs: np.ndarray) -> np.ndarray:
         return self.compiled.prepared(np.concatenate([y, self.parameters, inputs]), self.switches)
@@ -126,9 +126,9 @@ class EventRadau:
                 return
         self.switches[k] = 1.0 - self.switches[k]
         if name.startswith("slack"):  # the muscle is as long as its fittings are apart
-            sense = -1.0 if name.endswith("@counter") else 1.0
+            lengths = self.drive.lengths(float(self.state[self.names.index("stroke")]))
             length = self.names.index(name.replace("slack", "length"))
-            self.state[length] = self.middle - sense * self.state[self.names.index("stroke")]
+            self.state[length] = lengths[1 if name.endswith("@counter") else 0]
 
 
 def strokes(drive: Drive, start: Start, time: np.ndarray) -> np.ndarray:

@@ -18,10 +18,26 @@ from typing import Any
 import numpy as np
 
 # Importing a module of cases registers its recipes.
-from tests.truth import drive_cases, elastic_cases, friction_cases, mixed_cases, sensor_cases
+from tests.truth import (
+    drive_cases,
+    elastic_cases,
+    friction_cases,
+    joint_cases,
+    joint_more_cases,
+    mixed_cases,
+    sensor_cases,
+)
 from tests.truth.cases import BOOK, Case
 
-MODULES = (elastic_cases, friction_cases, sensor_cases, drive_cases, mixed_cases)
+MODULES = (
+    elastic_cases,
+    friction_cases,
+    sensor_cases,
+    drive_cases,
+    mixed_cases,
+    joint_cases,
+    joint_more_cases,
+)
 SEEDS = (0, 1, 2)
 
 

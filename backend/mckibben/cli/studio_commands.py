@@ -1,4 +1,4 @@
-"""``serve``, ``curves`` and ``inverse``."""
+"""``serve``, ``curves``, ``inverse`` and ``joint``."""
 
 from __future__ import annotations
 
@@ -235,3 +235,62 @@ def inverse(
         write_json(result)
     else:
         write_summary(summary_of(result, muscle or model))
+
+
+@app.command()
+@with_shared_options
+def joint(
+    file: Annotated[
+        str,
+        typer.Argument(
+            metavar="JOINT", help="A joint document, or a drive of two muscles on a pulley: file or preset."
+        ),
+    ],
+    pressures: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="P1,P2",
+            help='Gauge pressures, one of each muscle, e.g. "4 bar, 2 bar"; may be repeated.',
+        ),
+    ] = None,
+    angle: str | None = typer.Option(None, help='Angle at which the joint is to rest, e.g. "10 deg".'),
+    stiffness: str | None = typer.Option(
+        None, help='Stiffness that it is to have there, e.g. "20 N*m/rad"; the least when left out.'
+    ),
+    torque: str | None = typer.Option(None, help='External torque, e.g. "-2 N*m"; + to greater angles.'),
+    highest_pressure: str | None = typer.Option(
+        None, help="Gauge pressure that the muscles can be given; 6 bar when left out."
+    ),
+    direction: int | None = typer.Option(None, help="Sign of the motion, for friction; none when left out."),
+    points: int | None = typer.Option(None, help="Number of angles; 121 when left out."),
+    as_json: AsJson = False,
+    *,
+    studio: Studio,
+) -> None:
+    """Torque and stiffness of a joint over its angle, and pressures for an angle and a stiffness."""
+    from mckibben.application.joint.joint import JointQuestion, joint_statics
+    from mckibben.cli.output import write_json, write_summary
+    from mckibben.documents.joint import joint_of, named_joint
+    from mckibben.documents.joint_question import read_joint_question
+    from mckibben.documents.located import at_file
+    from mckibben.report.summary.joint import summary_of
+
+    document = named_joint(file, studio)
+    try:
+        stated = joint_of(document, studio)
+    except InputError as error:
+        raise at_file(file, error.field, error.message, error.hint) from error
+    asked = {
+        "pressures": pressures, "angle": angle, "stiffness": stiffness, "torque": torque,
+        "highest_pressure": highest_pressure, "direction": direction, "points": points,
+    }  # fmt: skip
+    try:
+        result = joint_statics(JointQuestion(stated, read_joint_question(asked)))
+    except InputError as error:
+        name = (error.field or "").partition(".")[0]
+        option = f"--{name.replace('_', '-')}: " if name in asked else ""
+        raise InputError(f"{option}{error.message}", hint=error.hint) from error
+    if as_json:
+        write_json(result)
+    else:
+        write_summary(summary_of(result, document.title or file))

@@ -26,6 +26,7 @@ from mckibben.documents.drive_air import (
     TubeInput,
     ValveInput,
 )
+from mckibben.documents.joint_parts import JointInput
 from mckibben.documents.muscle import EffectsInput, Muscle
 from mckibben.documents.quantity import (
     Contraction,
@@ -130,10 +131,11 @@ class LoadInput(Strict):
     inclination: Inclination | None = Field(
         None, description="Angle between the motion of the load and the horizontal. Default 90 deg."
     )
-    arrangement: Literal["hanging", "inclined", "horizontal", "lever", "antagonist"] | None = Field(
+    arrangement: Literal["hanging", "inclined", "horizontal", "lever", "antagonist", "joint"] | None = Field(
         None,
         description="Hanging is 90 deg, horizontal 0 deg. A lever needs lever_ratio. An antagonist pair "
-        "needs pulley_radius: a second, equal muscle with the mirrored command pulls in the other direction.",
+        "needs pulley_radius: a second, equal muscle with the mirrored command pulls in the other direction. "
+        "A joint states 'joint' instead of mass, spring and lever.",
     )
     spring: Stiffness = Field(0.0, description="Spring against the contraction, at the load.")
     lever_ratio: LeverRatio | None = Field(None, description="Stroke of the muscle per stroke of the load.")
@@ -142,6 +144,11 @@ class LoadInput(Strict):
     )
     precontraction: Contraction | None = Field(
         None, description="Contraction of both muscles of a pair in the middle position. Default 10 %."
+    )
+    joint: JointInput | None = Field(
+        None,
+        description="One muscle, or two against each other, at levers that change with the angle of a joint; "
+        "the muscles are that of the drive. Its stops are those of the drive.",
     )
 
 

@@ -20,6 +20,7 @@ from mckibben.presets import FittingPreset, TubePreset, ValvePreset
 from mckibben.presets.quantity import quantities
 from mckibben.simulation.command.pwm import PulseWidth
 from mckibben.simulation.command.signals import signal_from
+from mckibben.simulation.drive.joint_path import JointPath
 from mckibben.simulation.drive.parts import FlowControl, Load, QuickExhaust, Regulator, Tube, Valve
 
 Part = ValvePreset | TubePreset | FittingPreset
@@ -224,6 +225,33 @@ def pwm_of(pwm: PwmInput | None, *, regulated: bool) -> PulseWidth | None:
 def port_volume_of(fittings: Sequence[Part | None]) -> float:
     """Dead volume of the fittings [m^3]."""
     return sum(_figure(fitting, "port_volume", "m^3") or 0.0 for fitting in fittings)
+
+
+def joint_load(load: LoadInput, path: JointPath) -> Load:
+    """The load of a joint: its inertia and its torsion spring at the rim.
+
+    Raises:
+        InputError: the joint has no inertia, or the load states what belongs to one that moves along a line.
+    """
+    joint = load.joint
+    if joint is None:
+        raise InputError(
+            "load.joint is missing",
+            field="load.joint",
+            hint='e.g. {"muscles": [{"path": {"lever": "30 mm"}}], "inertia": "0.01 kg*m^2"}',
+        )
+    for name in sorted(load.model_fields_set - {"joint", "arrangement"}):
+        raise InputError(
+            f"a joint has no {name.replace('_', ' ')} of its load",
+            field=f"load.{name}",
+            hint="state it in load.joint",
+        )
+    if not joint.inertia > 0.0:
+        raise InputError(
+            "load.joint.inertia is missing", field="load.joint.inertia", hint="e.g. '0.01 kg*m^2'"
+        )
+    spring = 0.0 if joint.spring is None else joint.spring.stiffness
+    return Load(mass=joint.inertia / path.rim**2, inclination=0.0, spring=spring / path.rim**2)
 
 
 def load_of(load: LoadInput) -> Load:

@@ -10,11 +10,14 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_parts import (
     TYPICAL_TUBE,
     Part,
     flow_control_of,
+    joint_load,
     load_of,
     port_volume_of,
     pwm_of,
@@ -24,13 +27,15 @@ from mckibben.documents.drive_parts import (
     unverified_of,
     valve_of,
 )
+from mckibben.documents.joint_parts import joint_stops, path_of
 from mckibben.documents.kinds import is_preset, no_such, refuse_other, refuse_table
 from mckibben.documents.located import at_file, located
 from mckibben.documents.problems import validated
 from mckibben.documents.start_model import StartModel, stated_muscle
 from mckibben.documents.studio import Studio
 from mckibben.documents.value_names import value_names
-from mckibben.physics.errors import InputError
+from mckibben.physics.errors import InputError, fields_inside
+from mckibben.physics.muscle_path import MusclePath
 from mckibben.physics.units import si
 from mckibben.presets import DrivePreset, FittingPreset, TubePreset, ValvePreset
 from mckibben.presets.reading import BadDocumentError, parse, read_file
@@ -38,7 +43,9 @@ from mckibben.simulation.command.pid import PidController, controller_from
 from mckibben.simulation.command.shapes import Scaled, Signal
 from mckibben.simulation.command.signals import signal_from
 from mckibben.simulation.drive.joint import largest_difference
+from mckibben.simulation.drive.joint_path import JointPath, joint_path
 from mckibben.simulation.drive.parts import Drive, StiffnessControl, Valve
+from mckibben.simulation.statics.joint import weight_torque
 from mckibben.simulation.statics.model import StaticModel
 
 
@@ -50,8 +57,13 @@ class Control(NamedTuple):
     stiffness: StiffnessControl | None
 
 
-def control_of(document: DriveDocument, regulated: bool) -> Control:
+def control_of(document: DriveDocument, regulated: bool, radius: float | None = None) -> Control:
     """Controller and set points of a drive document that has a controller.
+
+    Args:
+        document: the drive document.
+        regulated: whether a pressure regulator feeds the muscle.
+        radius: of the rim at which the coordinate of a joint counts [m]; None = the pulley's.
 
     Raises:
         InputError: no set point or two, a joint's without a joint, an impossible gain; names the field.
@@ -61,7 +73,13 @@ def control_of(document: DriveDocument, regulated: bool) -> Control:
     load, values = document.load, stated.model_dump(exclude_none=True)
     joint, second = values.pop("angle", None), values.pop("stiffness", None)
     position = values.pop("reference", None)
-    if load.arrangement != "antagonist" or load.pulley_radius is None:
+    if load.arrangement == "joint" and second is not None:
+        raise InputError(
+            "the stiffness of a joint is controlled on a pulley only",
+            field="controller.stiffness",
+            hint='"load": {"arrangement": "antagonist", "pulley_radius": "20 mm"}',
+        )
+    if load.arrangement != "joint" and (load.arrangement != "antagonist" or load.pulley_radius is None):
         for name, stated in (("angle", joint), ("stiffness", second)):
             if stated is not None:
                 raise InputError(
@@ -80,9 +98,10 @@ def control_of(document: DriveDocument, regulated: bool) -> Control:
     if joint is None:
         reference = signal_from(position, unit="m", field="controller.reference")
     else:
-        assert load.pulley_radius is not None  # noqa: S101 - of a pair
+        rim = load.pulley_radius if radius is None else radius
+        assert rim is not None  # noqa: S101 - of a joint
         angle = _signal_or_constant(joint, "rad", "controller.angle")
-        reference = Scaled(of=angle, factor=load.pulley_radius)
+        reference = Scaled(of=angle, factor=rim)
     rest = 0.0 if regulated else -1.0
     if second is None:
         return Control(controller_from(values, output_min=rest), reference, None)
@@ -180,10 +199,15 @@ def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False)
     model = studio.static_model(start)
     regulator = regulator_of(document.regulator, valve_preset)
     valve = valve_of(document.valve, valve_preset)
-    command, control, notes = _command(document, regulator is not None, measured=measured)
+    path = joint_path_of(document, model)
+    radius = None if path is None else path.rim
+    command, control, notes = _command(document, regulator is not None, measured=measured, radius=radius)
     _check_flow(valve, command, None if control is None else control.controller)
     tube, control_valve = tube_of(document.tube, tube_preset), flow_control_of(document.flow_control)
-    lowest, highest = _stops(document, model)
+    if path is not None:
+        start = with_joint_effects(start, document)
+        model = studio.static_model(start)
+    lowest, highest = (0.0, 0.25) if path is not None else stops_of(document, model)
     if document.start.position is not None and document.start.reached is not None:
         raise InputError(
             "a load that is released at a stated position has not come to rest there",
@@ -193,7 +217,7 @@ def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False)
     drive = Drive(
         model=model,
         valve=valve,
-        load=load_of(document.load),
+        load=load_of(document.load) if path is None else joint_load(document.load, path),
         command=command,
         duration=document.duration,
         supply_pressure=document.supply.pressure,
@@ -212,7 +236,8 @@ def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False)
         fitting_volume=document.gas.dead_volume + port_volume_of(fittings),
         polytropic_exponent=document.gas.polytropic_exponent,
         wall_heat_transfer=document.gas.wall_heat_transfer,
-        **_pair(document, lowest, highest)._asdict(),
+        **_pair(document, lowest, highest, path)._asdict(),
+        path=path,
         controller=None if control is None else control.controller,
         reference=None if control is None else control.reference,
         stiffness=None if control is None else control.stiffness,
@@ -280,14 +305,14 @@ def _preset(studio: Studio, kind: str, preset_id: str | None, field: str) -> Par
 
 
 def _command(
-    document: DriveDocument, regulated: bool, *, measured: bool
+    document: DriveDocument, regulated: bool, *, measured: bool, radius: float | None
 ) -> tuple[Signal, Control | None, dict[str, str]]:
     """Command, controller and its reference; at rest a valve exhausts and a regulator gives no pressure."""
     rest = 0.0 if regulated else -1.0
     notes: dict[str, str] = {}
     closed = signal_from({"shape": "step", "level": 0.0, "initial": 0.0}, unit="1", field="command")
     if document.controller is not None:
-        control = control_of(document, regulated)
+        control = control_of(document, regulated, radius)
         if document.command is not None:
             notes["command"] = "not used: the controller generates the command"
         return closed, control, notes
@@ -317,7 +342,7 @@ def _check_flow(valve: Valve, command: Signal, controller: PidController | None)
             )  # fmt: skip
 
 
-_PRECONTRACTION = 0.1  # default of both muscles of a pair
+DEFAULT_PRECONTRACTION = 0.1  # default of both muscles of a pair
 
 
 class _PairSettings(NamedTuple):
@@ -328,12 +353,14 @@ class _PairSettings(NamedTuple):
     pulley_radius: float | None = None
 
 
-def _pair(document: DriveDocument, lowest: float, highest: float) -> _PairSettings:
+def _pair(document: DriveDocument, lowest: float, highest: float, path: JointPath | None) -> _PairSettings:
     """Arguments of a drive that describe its antagonist pair, if it is one."""
     load = document.load
+    if path is not None:
+        return _PairSettings(pair=len(path.lengths) == 2, pulley_radius=path.rim)
     if load.arrangement != "antagonist":
         return _PairSettings()
-    middle = _PRECONTRACTION if load.precontraction is None else load.precontraction
+    middle = DEFAULT_PRECONTRACTION if load.precontraction is None else load.precontraction
     if not lowest < middle < highest:
         raise InputError(
             f"the middle at {middle * 100:.3g} % is not between the stops at {lowest * 100:.3g} % and "
@@ -344,7 +371,90 @@ def _pair(document: DriveDocument, lowest: float, highest: float) -> _PairSettin
     return _PairSettings(pair=True, precontraction=middle, pulley_radius=load.pulley_radius)
 
 
-def _stops(document: DriveDocument, model: StaticModel) -> tuple[float, float]:
+def joint_path_of(document: DriveDocument, model: StaticModel) -> JointPath | None:
+    """The paths of the muscles of a joint; None of a drive without one.
+
+    Raises:
+        InputError: muscles of their own, more than two, a lever of the wrong sign, a path longer than the
+            braid allows, or stops of a drive along a line.
+    """
+    load = document.load
+    if load.arrangement != "joint":
+        if load.joint is not None:
+            raise InputError("only a joint has paths", field="load.joint", hint='"arrangement": "joint"')
+        return None
+    joint = load.joint
+    if joint is None:
+        raise InputError(
+            "load.joint is missing",
+            field="load.joint",
+            hint='e.g. {"muscles": [{"path": {"lever": "30 mm"}}], "inertia": "0.01 kg*m^2"}',
+        )
+    for name in sorted(document.stops.model_fields_set - {"restitution"}):
+        raise InputError(
+            "a joint stops at angles", field=f"stops.{name}", hint='"load": {"joint": {"stops": {...}}}'
+        )
+    with fields_inside("load.joint"):
+        low, high = joint_stops(joint)
+        if len(joint.muscles) > 2:
+            raise InputError("a run has one muscle or two", field="muscles", hint="statics take more")
+        paths = []
+        for place, stated in enumerate(joint.muscles):
+            where = f"muscles.{place}"
+            for name in ("muscle", "effects"):
+                if getattr(stated, name) is not None:
+                    raise InputError(
+                        "in a run all muscles are that of the drive",
+                        field=f"{where}.{name}",
+                        hint="leave it out",
+                    )
+            with fields_inside(where):
+                rest = float(model.muscle.nominal_length)
+                path = path_of(stated.path, rest_length=rest, low=low, high=high)
+                _check_path(path, low, high, sense=-1.0 if place else 1.0, longest=model.longest)
+            paths.append(path)
+        relaxed = 0.0 if joint.spring is None else joint.spring.relaxed_at
+        return joint_path(tuple(paths), low=low, high=high, spring_rest=relaxed)
+
+
+def _check_path(path: MusclePath, low: float, high: float, *, sense: float, longest: float) -> None:
+    """Refuse what a run cannot follow."""
+    angle = np.linspace(low, high, 361)
+    lever = np.broadcast_to(np.asarray(path.lever(angle), float), angle.shape)
+    if not np.all(sense * lever > 0.0):
+        place = int(np.argmin(sense * lever))
+        which = "first muscle turns to greater" if sense > 0.0 else "second muscle turns to smaller"
+        raise InputError(
+            f"the lever is {1e3 * lever[place]:.4g} mm at {np.degrees(angle[place]):.4g} deg: in a run the "
+            f"{which} angles everywhere between the stops",
+            field="path",
+            hint="narrower stops, or the other sign of the angle",
+        )
+    length = np.asarray(path.length(angle), float)
+    if np.max(length) >= longest:
+        place = int(np.argmax(length))
+        raise InputError(
+            f"at {np.degrees(angle[place]):.4g} deg the path is {1e3 * length[place]:.4g} mm long, and the "
+            f"braid locks at {1e3 * longest:.4g} mm",
+            field="path",
+            hint="narrower stops, or more contraction at the angle 0",
+        )
+
+
+def with_joint_effects(start: StartModel, document: DriveDocument) -> StartModel:
+    """The model with the friction of the bearing and the weight of the link of its joint."""
+    joint = document.load.joint
+    added: dict[str, dict[str, float]] = {}
+    if joint is not None and joint.friction:
+        added["bearing_friction"] = {"torque": joint.friction}
+    if joint is not None and joint.link is not None:
+        moment = weight_torque(mass=joint.link.mass, centre=joint.link.centre)
+        added["link_weight"] = {"moment": moment, "level_at": joint.link.level_at}
+    # They change nothing of the muscle that was measured.
+    return replace(start, effects={**added, **start.effects}, fitted=start.fit) if added else start
+
+
+def stops_of(document: DriveDocument, model: StaticModel) -> tuple[float, float]:
     """End stops as contractions, within the possible range of the muscle."""
     stops = document.stops
     lowest, highest = stops.min_contraction, stops.max_contraction

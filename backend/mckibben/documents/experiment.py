@@ -166,6 +166,8 @@ PressureZero = Annotated[Said, SaidQuantity((_PRESSURE_ZERO,))]
 MuscleSaid = Annotated[Said, SaidText("DMSP-20")]
 ValveSaid = Annotated[Said, SaidText("MPYE-5-1/8-HF")]
 TubeSaid = Annotated[Said, SaidText("4 mm x 1 m")]
+LeverSaid = Annotated[Said, SaidText("30 mm")]
+ContractionSaid = Annotated[Said, SaidQuantity((QuantityField("1", "10 %", at_least=-0.2, at_most=0.4),))]
 StopsSaid = Annotated[Said, SaidText("0 % to 25 %")]
 FixedEnd = Annotated[Said, SaidText("upper", ("upper", "lower", "both"))]
 AccuracySaid = Annotated[Said, SaidText("length 1 mm, force 0.5 %, pressure 20 mbar")]
@@ -195,6 +197,15 @@ class ExperimentInput(Strict):
     )
     inclination: InclinationSaid | None = Field(
         None, description="Angle between the motion of the load and the horizontal. Default: drive, 90 deg."
+    )
+    lever: LeverSaid | None = Field(
+        None,
+        description='Lever of the muscle at a joint: "30 mm", or a formula of the angle in rad that gives m, '
+        '"0.03 - 0.005*angle**2"; negative for a muscle that turns to smaller angles. The second muscle of a '
+        "pair has the mirrored path.",
+    )
+    contraction_at_zero: ContractionSaid | None = Field(
+        None, description="Contraction of the muscle at the angle 0; of both muscles of a pair. Default: 0."
     )
     fixed_end: FixedEnd | None = Field(
         None, description="Which end of the muscle is fixed. It is recorded; no figure depends on it."

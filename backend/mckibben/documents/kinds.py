@@ -28,6 +28,7 @@ KINDS: dict[str, DocumentKind] = {
     "study": DocumentKind("a study", "mckibben study", ("subject", "quantities")),
     "model": DocumentKind("a saved model", "mckibben compare DATA --model", ("freed", "envelope")),
     "drive": DocumentKind("a drive", "mckibben simulate", ("valve", "command", "controller")),
+    "joint": DocumentKind("a joint", "mckibben joint", ("muscles",)),
     "task": DocumentKind("a sizing task", "mckibben size", ("stroke", "catalogue", "rank_by")),
     "muscle": DocumentKind(
         "a muscle",

@@ -11,12 +11,14 @@ from numpy.typing import ArrayLike
 from mckibben.application.compare.compare import ComparisonResult
 from mckibben.application.curves.curves import CurvesResult
 from mckibben.application.diagnose.result import DiagnosisResult
+from mckibben.application.joint.joint import JointResult
 from mckibben.application.linear.result import LinearResult
 from mckibben.application.run.simulate import SimulationResult
 from mckibben.application.size.size import ExploredDrive, ProposedDrive, SizingResult
 from mckibben.application.study.study import StudyResult
 from mckibben.facts.comparison import NOISE, error_scale
 from mckibben.facts.diagnosis import DIAGNOSIS
+from mckibben.facts.joint import JOINT_STATICS
 from mckibben.facts.sizing import SIZING
 from mckibben.facts.study import INFLUENCE, WATCHED
 from mckibben.facts.units import Scale
@@ -259,6 +261,20 @@ def curves_figure(result: CurvesResult, title: str) -> Figure:
             colour=shades[int(order[index])],
         )  # fmt: skip
     name_axes(figure, axis_title("contraction"), [axis_title("force")])
+    return figure
+
+
+def joint_figure(result: JointResult, title: str) -> Figure:
+    """Torque over angle, one curve for each set of pressures."""
+    figure = blank(title)
+    torque, angle = JOINT_STATICS["torque"], JOINT_STATICS["angle"]
+    for values, own, colour in zip(
+        result.torque, result.pressures, family(len(result.pressures)), strict=True
+    ):
+        name = " / ".join(f"{pressure / 1e5:g}" for pressure in own) + " bar"
+        add_line(figure, result.angle / angle.scale.factor, values / torque.scale.factor, name, colour=colour)
+    names = [f"{each.label} [{each.scale.unit}]" for each in (angle, torque)]
+    name_axes(figure, names[0], names[1:])
     return figure
 
 

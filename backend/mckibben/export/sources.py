@@ -12,6 +12,7 @@ from mckibben.documents.saved_model import SavedModel
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
 from mckibben.export.about import Constant
+from mckibben.physics.drive_terms import COUNTER_PATH_CONSTANTS, PATH_CONSTANTS
 from mckibben.physics.muscle import GEOMETRY
 from mckibben.presets import FittingPreset, MusclePreset, TubePreset, ValvePreset
 from mckibben.presets.quantity import Quantity
@@ -69,8 +70,27 @@ DRIVE_CONSTANTS: Mapping[str, tuple[str, str, str]] = {
     "stop_high": ("m", "Stroke of the muscle at its upper end stop.", "stops.max_contraction"),
     "slack_damping": ("N*s/m", "Damping of a slack muscle, of the method.", ""),
 }
+_OF_PATH = {
+    "rim": ("m", "Radius at which the angle of a joint counts as a stroke.", "load.joint"),
+    "spring_rest": ("m", "Stroke at which the torsion spring is relaxed.", "load.joint.spring"),
+    "path_middle": ("rad", "Middle angle between the stops.", "load.joint.stops"),
+    "path_half": ("rad", "Half of the angle between the stops.", "load.joint.stops"),
+}
+#: The same of the paths of a joint: coefficients of polynomials of (angle - middle) / half.
+PATH_WORDS: Mapping[str, tuple[str, str, str]] = {
+    name: _OF_PATH.get(
+        name,
+        (
+            "m",
+            f"Coefficient {name.rpartition('_')[2]} of the {'lever' if '_lever_' in name else 'length'} "
+            f"of the {'second' if name.startswith('counter_') else 'first'} muscle.",
+            "load.joint.muscles",
+        ),
+    )
+    for name in (*PATH_CONSTANTS, *COUNTER_PATH_CONSTANTS)
+}
 #: Unit and description (and more) of every number of a drive besides those of its effects.
-CONSTANT_WORDS: Mapping[str, tuple[str, ...]] = {**DRIVE_CONSTANTS, **_GEOMETRY}
+CONSTANT_WORDS: Mapping[str, tuple[str, ...]] = {**DRIVE_CONSTANTS, **PATH_WORDS, **_GEOMETRY}
 # Figure of a part's preset for a path of the document.
 _FIGURES = {
     "valve.sonic_conductance": "sonic_conductance",
@@ -154,7 +174,7 @@ class Sources:
                 yield Constant(path, value, parameter.unit, parameter.description, *source)
 
     def _drive(self, values: Mapping[str, float]) -> Iterator[Constant]:
-        for name, (unit, description, path) in DRIVE_CONSTANTS.items():
+        for name, (unit, description, path) in {**DRIVE_CONSTANTS, **PATH_WORDS}.items():
             if name in values:
                 yield Constant(f"drive.{name}", values[name], unit, description, *self._of_drive(name, path))
 

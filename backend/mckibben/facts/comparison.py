@@ -89,6 +89,13 @@ CHANNELS = Group(
         quantity="number",
     ),
     Figure("temperature", "T", "K", "Muscle temperature", "Temperature of the muscle, not of its air."),
+    Figure("angle", "φ", "rad", "Angle", "Angle of the joint."),
+    Figure("torque", "M", "N*m", "Torque", "Torque on the joint, as it was measured."),
+    Figure("lever", "r", "m", "Lever", "Lever at which the muscle pulls at the joint."),
+    Figure(
+        "counter_pressure", "p₂", "Pa", "Pressure of the second muscle",
+        "Gauge pressure in the muscle that pulls against the first.",
+    ),
     Figure("group", "", "1", "Group", "Number of the sweep or run.", quantity="number"),
 )  # fmt: skip
 
@@ -160,10 +167,18 @@ REVERSALS = Group(
         "friction has a range of no width.",
         _REVERSALS, quantity="number",
     ),
-    Figure("low", "F₁", "N", "Least force at a reversal", "Force of the shortening muscle.", _REVERSALS),
-    Figure("high", "F₂", "N", "Larger force at a reversal", "Force of the lengthening muscle.", _REVERSALS),
     Figure(
-        "distance", "", "N", "Distance from the range of friction",
+        "low", "F₁", "", "Least force at a reversal",
+        "The lesser of the forces of the shortening and the lengthening muscle; at a joint of its torques.",
+        _REVERSALS,
+    ),
+    Figure(
+        "high", "F₂", "", "Larger force at a reversal",
+        "The larger of the forces of the shortening and the lengthening muscle; at a joint of its torques.",
+        _REVERSALS,
+    ),
+    Figure(
+        "distance", "", "", "Distance from the range of friction",
         "max(F₁ − F, F − F₂, 0); the largest one of all readings.", _REVERSALS,
     ),
     Figure(

@@ -20,6 +20,7 @@ from mckibben.facts.comparison import (
 )
 from mckibben.facts.diagnosis import DIAGNOSIS
 from mckibben.facts.figure import Figure, Group
+from mckibben.facts.joint import JOINT_MUSCLE, JOINT_STATICS
 from mckibben.facts.linear import (
     CONTROLLER,
     DESCRIBING,
@@ -87,6 +88,7 @@ GROUPS: Mapping[str, Group] = MappingProxyType(
             *(NOISE, DIAGNOSIS),
             *(CURVES, FORCE_INTERVAL, CHARACTERISTICS, OPERATING_POINT, LOOP, OVER_PRESSURE),
             *(MUSCLE_LIMITS, GEOMETRY, INVERSE, INVERSE_DETAILS),
+            *(JOINT_MUSCLE, JOINT_STATICS),
             *(LINEAR_POINT, LINEAR_MODEL, POLE, DESCRIBING, MARGINS, LOOP_RESPONSE),
             *(CONTROLLER, STEP_DESIGN, DESIGN),
         )

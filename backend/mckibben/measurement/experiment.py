@@ -11,6 +11,8 @@ Fields of an experiment, as the command line, requests and answers name them:
 | `valve`, `tube` | ids of presets; a tube also "4 mm x 1 m" or "none" | transient with a command column |
 | `stops` | contractions between which the load can move, "0 % to 25 %" | transient |
 | `inclination` | of the motion of the load from the horizontal [rad] | transient |
+| `lever` | "30 mm", or a formula of the angle in rad that gives m | torque over angle |
+| `contraction_at_zero` | contraction of the muscle at the angle 0; of both of a pair | torque over angle |
 | `fixed_end` | which end of the muscle is fixed | |
 | `force_zero`, `pressure_zero` | reading of the sensor at true zero [N, Pa]; subtracted | |
 | `accuracy_*` | standard deviation of a channel, in its unit or as a share of its largest value | |
@@ -31,7 +33,9 @@ from mckibben.facts.result import result_class
 from mckibben.measurement.accuracy import CHANNELS as ACCURACIES
 from mckibben.measurement.accuracy import SENSORS, read_accuracy
 from mckibben.measurement.kind import STROKES
-from mckibben.measurement.measurement import Measurement, StatedValue
+from mckibben.measurement.measurement import CHANNEL_UNITS, MeasuredChannel, Measurement, StatedValue
+from mckibben.physics.errors import InputError
+from mckibben.physics.muscle_path import MusclePath, path_on_lever
 
 #: Who says a value: the file, the user, a preset that was chosen, a proposal that the user took over, nobody.
 Origin = Literal["file", "you", "preset", "suggested", "assumed"]
@@ -165,6 +169,16 @@ FIELDS: Mapping[str, ExperimentField] = MappingProxyType(
                 "90 deg", -pi / 2.0, pi / 2.0,
             ),
             ExperimentField(
+                "lever", "Lever", "", (), "At which lever does the muscle pull at the joint?",
+                "length and force of the muscle follow from angle and torque by it",
+                "30 mm", None, None, ("0.03 - 0.005*angle**2",),
+            ),
+            ExperimentField(
+                "contraction_at_zero", "Contraction at the angle 0", "1", ("%",),
+                "How far is the muscle contracted at the angle 0?", "its length is counted from there",
+                "10 %", -0.2, 0.4,
+            ),
+            ExperimentField(
                 "fixed_end", "Fixed end", "", (), "Which end of the muscle is fixed?",
                 "it is recorded; no figure depends on it", "upper", None, None, ("upper", "lower", "both"),
                 True,
@@ -187,7 +201,9 @@ FIELDS: Mapping[str, ExperimentField] = MappingProxyType(
 _OF_CONDITIONS = {
     "nominal_length": "rest_length", "load_mass": "load", "load_force": "load", "supply_pressure": "supply",
     "muscle": "muscle", "valve": "valve", "tube": "tube", "stops": "stops", "inclination": "inclination",
-    "fixed_end": "fixed_end", "force_zero": "force_zero", "pressure_zero": "pressure_zero",
+    "fixed_end": "fixed_end", "lever": "lever",
+    "contraction_at_zero": "contraction_at_zero", "force_zero": "force_zero",
+    "pressure_zero": "pressure_zero",
 }  # fmt: skip
 
 
@@ -202,6 +218,7 @@ def needed(kind: str | None, channels: Collection[str]) -> tuple[str, ...]:
     commanded = kind == "transient" and "command" in channels
     if kind == "transient" or (kind == "isotonic" and "force" not in channels):
         fields.append("load")
+    fields += ["lever"] if _by_angle(channels) else []
     return (*fields, *(("supply", "valve") if commanded else ()))
 
 
@@ -213,12 +230,19 @@ def mattering(kind: str | None, channels: Collection[str]) -> tuple[str, ...]:
         "valve": "command" in channels,
         "tube": "command" in channels,
         "stops": kind == "transient",
+        "lever": _by_angle(channels),
+        "contraction_at_zero": _by_angle(channels),
         "inclination": kind in ("transient", "isotonic"),
         "force_zero": "force" in channels,
         "pressure_zero": "pressure" in channels,
         **{f"{ACCURACY}{channel}": _measured(channel, channels) for channel in ACCURACIES},
     }
     return tuple(name for name in FIELDS if also.get(name, True))
+
+
+def _by_angle(channels: Collection[str]) -> bool:
+    """Whether length and force of the muscle follow from the angle of a joint and its torque alone."""
+    return {"angle", "torque"} <= set(channels) and "force" not in channels
 
 
 def _measured(channel: str, channels: Collection[str]) -> bool:
@@ -282,7 +306,7 @@ def shown_value(name: str, value: ExperimentValue) -> str:
     if isinstance(value.value, str):
         return value.value
     if value.unit == "1":
-        return f"{100.0 * value.value:.3g} % of the largest value"
+        return f"{100.0 * value.value:.3g} %{' of the largest value' if name.startswith(ACCURACY) else ''}"
     scale, unit = _SHOWN.get(value.unit, (1.0, value.unit))
     if value.unit == "Pa":
         scale, unit = (1e-5, "bar") if name == "supply" else (1e-2, "mbar")
@@ -312,21 +336,89 @@ def corrected(measurement: Measurement, values: Mapping[str, ExperimentValue]) -
             shifted.flags.writeable = False
             columns[channel] = shifted
     conditions = _conditions(measurement, values)
+    if "lever" in values and _by_angle(measurement.columns):
+        columns |= _along_path(measurement, values, conditions)
     if not columns and conditions == dict(measurement.conditions):
         return measurement
+    known = {channel.name for channel in measurement.channels}
     channels = tuple(
-        channel
-        if channel.name not in columns
-        else channel._replace(
-            minimum=float(np.min(columns[channel.name])), maximum=float(np.max(columns[channel.name]))
+        channel._replace(minimum=float(np.min(values)), maximum=float(np.max(values)))
+        if (values := columns.get(channel.name)) is not None
+        else channel
+        for channel in (
+            *measurement.channels,
+            *(
+                MeasuredChannel(name, FROM_PATH, CHANNEL_UNITS[name], 0.0, 0.0, CHANNEL_UNITS[name])
+                for name in columns
+                if name not in known
+            ),
         )
-        for channel in measurement.channels
     )
     return replace(
         measurement,
         columns=MappingProxyType({**measurement.columns, **columns}),
         channels=channels,
         conditions=MappingProxyType(conditions),
+    )
+
+
+#: Origin of a channel that follows from the angle of a joint.
+FROM_PATH = "the path of the muscle"
+
+
+def _along_path(
+    measurement: Measurement, values: Mapping[str, ExperimentValue], conditions: dict[str, float | str]
+) -> dict[str, NDArray]:
+    """Length, lever and force of the (first) muscle of a joint, from angle and torque.
+
+    The force is what the first muscle alone would pull; of a pair it only stands for the torque. The path is
+    kept among the conditions.
+
+    Raises:
+        InputError: a lever that cannot be, or that vanishes at an angle of the rows.
+    """
+    length = float(values["rest_length"].value)
+    contraction = float(values["contraction_at_zero"].value) if "contraction_at_zero" in values else 0.0
+    conditions |= {LEVER: str(values["lever"].value), LENGTH_AT_ZERO: length * (1.0 - contraction)}
+    path = path_of_joint(conditions, measurement.columns["angle"])
+    assert path is not None  # noqa: S101 - just stated
+    angle = measurement.columns["angle"]
+    lever = np.broadcast_to(np.asarray(path.lever(angle), float), angle.shape).copy()
+    found = {
+        "length": np.asarray(path.length(angle), float),
+        "lever": lever,
+        "force": measurement.columns["torque"] / np.where(np.abs(lever) < _NO_LEVER, np.nan, lever),
+    }
+    if not np.all(np.isfinite(found["force"])):
+        place = int(np.argmin(np.isfinite(found["force"])))
+        raise InputError(
+            f"the lever vanishes at {np.degrees(angle[place]):.4g} deg, where a torque was measured",
+            field="lever",
+            hint="another lever, or leave these rows out",
+        )
+    for values_of in found.values():
+        values_of.flags.writeable = False
+    return found
+
+
+_NO_LEVER = 1e-6  # m
+#: Conditions that hold the path of a muscle along a joint: lever as a text, length at the angle 0 [m].
+LEVER, LENGTH_AT_ZERO = "lever", "length_at_zero"
+
+
+def path_of_joint(conditions: Mapping[str, float | str], angle: NDArray) -> MusclePath | None:
+    """The stated path of the (first) muscle of a joint over the measured angles; None where none is stated.
+
+    Raises:
+        InputError: a lever that cannot be.
+    """
+    if LENGTH_AT_ZERO not in conditions:
+        return None
+    return path_on_lever(
+        lever=str(conditions[LEVER]),
+        length=float(conditions[LENGTH_AT_ZERO]),
+        low=float(np.min(angle)),
+        high=float(np.max(angle)),
     )
 
 

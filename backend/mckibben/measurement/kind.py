@@ -50,6 +50,8 @@ def common_kind(one: str, other: str) -> str | None:
 def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float | str]) -> tuple[str, str]:
     """(kind, reason) of a measurement that does not state it.
 
+    At a joint the torque stands for the force and the angle for the stroke where these were not measured.
+
     The rules in this order; "stroke" is length, contraction or displacement:
 
     1. time with a valve command: ``transient``; but where pressure, force and stroke were measured beside it
@@ -75,8 +77,8 @@ def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float 
     Raises:
         InputError: no rule applies.
     """
-    stroke = next((columns[c] for c in STROKES if c in columns), None)
-    pressure, force = columns.get("pressure"), columns.get("force")
+    stroke, force = stroke_of(columns), columns.get("force", columns.get("torque"))
+    pressure = columns.get("pressure")
     timed = "time" in columns
     if timed and "command" in columns and (pressure is not None or stroke is not None):
         if pressure is not None and stroke is not None and force is not None and not _loaded(conditions):
@@ -84,6 +86,8 @@ def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float 
             if found[0] == "isometric":
                 return "isometric", f"{found[1]}, and the pressure shows what the valve did"
         return "transient", "a valve command over time"
+    if "counter_pressure" in columns and force is not None and stroke is not None:
+        return "static", "torque over angle of two muscles"
     if force is not None and pressure is not None and stroke is not None:
         slow = timed and _moves_slowly(columns["time"], stroke)
         if timed and "load_mass" in conditions and not (slow and _constant(force)):
@@ -118,6 +122,12 @@ def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float 
         field="columns",
         hint="force measurements need pressure, length and force; strokes need pressure and length, or time",
     )
+
+
+def stroke_of(columns: Mapping[str, NDArray]) -> NDArray | None:
+    """What moves: the most direct of `STROKES`, else the angle at which a torque was measured."""
+    stroke = next((columns[c] for c in STROKES if c in columns), None)
+    return columns.get("angle") if stroke is None and "torque" in columns else stroke
 
 
 def _loaded(conditions: Mapping[str, float | str]) -> bool:
@@ -315,7 +325,7 @@ def group_rows(columns: Mapping[str, NDArray], kind: str) -> tuple[NDArray[np.in
     """
     if "group" in columns:
         return np.array(columns["group"], dtype=np.int64), "by the group column"
-    stroke = next((columns[c] for c in STROKES if c in columns), None)
+    stroke = stroke_of(columns)
     pressure = columns.get("pressure")
     signal = next(v for v in (pressure, stroke, columns.get("command")) if v is not None)
     if kind in FORCE_KINDS and pressure is not None and stroke is not None:

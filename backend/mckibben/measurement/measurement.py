@@ -34,10 +34,13 @@ __all__ = [
 ]  # fmt: skip
 
 #: Canonical channel name -> SI unit. Pressure is gauge; displacement is a contraction stroke (positive =
-#: shorter); command is the share of valve opening; direction is -1 shortening, +1 lengthening, 0 unknown.
+#: shorter); command is the share of valve opening; direction is -1 shortening, +1 lengthening, 0 unknown;
+#: angle and torque are those of a joint, lever that at which the muscle pulls, counter_pressure that of a
+#: second muscle which pulls against it.
 CHANNEL_UNITS: Mapping[str, str] = MappingProxyType({
     "time": "s", "pressure": "Pa", "force": "N", "length": "m", "contraction": "1", "displacement": "m",
-    "diameter": "m", "velocity": "m/s", "command": "1", "temperature": "K", "direction": "1", "group": "1",
+    "diameter": "m", "velocity": "m/s", "command": "1", "temperature": "K", "angle": "rad", "torque": "N*m",
+    "lever": "m", "counter_pressure": "Pa", "direction": "1", "group": "1",
 })  # fmt: skip
 
 _HARDLY_A_PRESSURE = 2e3  # Pa; too low to have an effect on a muscle
@@ -246,7 +249,7 @@ def build(
     table = dict(columns)
     rows = len(next(iter(table.values())))
     slack = np.zeros(rows, bool) if marked_slack is None else np.array(marked_slack, bool)
-    if kind in FORCE_KINDS:
+    if kind in FORCE_KINDS and "force" in table:
         exact_zero = table["force"] == 0.0
         if np.count_nonzero(exact_zero) >= 2:  # a sensor hardly shows exactly 0 twice, a clipped table does
             slack |= exact_zero
@@ -259,7 +262,7 @@ def build(
         excluded_rows = unusable_rows(table, kind, slack=slack)
         if "time" in table:
             excluded_rows |= spiked_rows(table)
-        if kind in FORCE_KINDS and ("time" in table or "direction" in table):
+        if kind in FORCE_KINDS and "force" in table and ("time" in table or "direction" in table):
             pushing = pushing_rows(table["force"])
             if pushing.any():
                 excluded_rows |= {"the muscle pushes (force below zero)": pushing}
@@ -329,11 +332,15 @@ def lengths(measurement: Measurement, nominal_length: float) -> Array:
 def _check_channels(columns: Mapping[str, NDArray], kind: str, name: str) -> None:
     """Reject a stated kind whose channels are missing."""
     any_stroke, any_state = "/".join(STROKES), "/".join(("pressure", *STROKES))
+    if "torque" in columns and "angle" in columns:
+        any_stroke, force = f"{any_stroke}/angle", "force/torque"
+    else:
+        force = "force"
     needed = {
         "isotonic": ("pressure", any_stroke),
         "diameter": ("diameter", any_state),
         "transient": ("time", any_state),
-    }.get(kind, ("pressure", any_stroke, "force"))
+    }.get(kind, ("pressure", any_stroke, force))
     for options in needed:
         if not any(option in columns for option in options.split("/")):
             raise InputError(

@@ -14,16 +14,19 @@ from mckibben.physics.ops import Value
 
 
 class Motion(NamedTuple):
-    """Stroke of a muscle from the drive's coordinate x: s = start + sense * x, sense +1 or -1.
+    """How a muscle moves with the coordinate of the drive.
 
-    ``direction`` is that of the dry friction along x: +1 or -1 sliding, between them at rest.
+    Attributes:
+        stroke: rest length less the distance of the fittings [m].
+        rate: d stroke/dt [m/s].
+        direction: that of the dry friction along the stroke: +1 or -1 sliding, between them at rest.
+        shown: stroke that a sensor counts [m].
     """
 
-    coordinate: Value
+    stroke: Value
     rate: Value
     direction: Value
-    start: Value
-    sense: float
+    shown: Value
 
 
 class Side(NamedTuple):
@@ -84,7 +87,7 @@ def muscle_side(
     """
     pressure, ambient = states["pressure"], constants["ambient_temperature"]
     gauge = pressure - constants["ambient_pressure"]
-    stroke = motion.start + motion.sense * motion.coordinate
+    stroke = motion.stroke
     distance, length = muscle.nominal_length - stroke, states["length"]
     still: dict[str, Any] = {
         "muscle": muscle,
@@ -95,8 +98,8 @@ def muscle_side(
         "temperature": ambient,
     }
     resting = model.at(**still, values=values).tension
-    velocity = -motion.sense * motion.rate - slack * resting / constants["slack_damping"]
-    moving = {**still, "velocity": velocity, "direction": -motion.sense * motion.direction}
+    velocity = -motion.rate - slack * resting / constants["slack_damping"]
+    moving = {**still, "velocity": velocity, "direction": -motion.direction}
     state = model.at(**moving, values=values)
     # Series compliance: one Newton step from the rigid rig.
     yielding = 1.0 + state.compliance * state.tension.diff(length)
@@ -156,9 +159,8 @@ def muscle_side(
         **flows["rates"],
         **({"gas_mass": inflow} if balanced else {}),
     }
-    # The sensor of a pair is zero in the middle, as the position of its load is.
     instant = _readings(
-        model, muscle, values, gauge=gauge, force=force, stroke=stroke - motion.start, temperature=ambient
+        model, muscle, values, gauge=gauge, force=force, stroke=motion.shown, temperature=ambient
     )
     drive = {
         "supply_flow": flows["supply"],
@@ -170,7 +172,7 @@ def muscle_side(
         "pressure": gauge,
         "force": force,
         "stroke": stroke,
-        "speed": motion.sense * motion.rate,
+        "speed": motion.rate,
         "gas_temperature": temperature,
         **{f"instant_{name}": reading for name, reading in instant.items()},
     }

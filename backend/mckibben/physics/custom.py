@@ -78,19 +78,7 @@ def custom_effect(term: str, stated: Mapping[str, float] | None = None) -> Effec
     Raises:
         InputError: names what in the term cannot be used; field "effects.custom.term".
     """
-    if not isinstance(term, str) or not term.strip():
-        raise refused("the term is empty", hint="e.g. -c*sign(v)*P")
-    if len(term) > _LONGEST:
-        raise refused(f"the term has {len(term)} characters, at most {_LONGEST}")
-    if odd := term[_USABLE.match(term).end() :]:  # type: ignore - it matches the empty text
-        raise refused(f"{_character_name(odd[0])} cannot be part of a term", hint=_ALLOWED)
-    try:
-        tree = ast.parse(term.strip().replace("^", "**"), mode="eval")
-    except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
-        raise refused(f"'{shown(part=term)}' is not a formula", hint="e.g. -c*sign(v)*P") from error
-    names: dict[str, None] = {}
-    with errors_of_term(term=term):
-        evaluate = _node(tree.body, names, 0)
+    tree, evaluate, names = _parsed(term)
     parameters = [name for name in names if name not in SYMBOLS]
     for name in parameters:
         if name in _TAKEN or name.startswith("_") or len(name) > _LONGEST_NAME:
@@ -98,7 +86,7 @@ def custom_effect(term: str, stated: Mapping[str, float] | None = None) -> Effec
     timed = "t" in names
     if not parameters:
         raise refused("the term has no parameter that could be fitted", hint="e.g. c*sign(v)*P")
-    check_written_out(tree=tree.body, term=term)
+    check_written_out(tree=tree, term=term)
     check_derivatives(evaluate=evaluate, names=names, term=term)
     unknown = [name for name in stated or {} if name not in parameters]
     if unknown:
@@ -150,6 +138,64 @@ def custom_effect(term: str, stated: Mapping[str, float] | None = None) -> Effec
         references=(user,),
         examples=(Example("force_change", 0.0, 1.0, user, {}, {}, {}),),
     ).named(CUSTOM)
+
+
+def typed_formula(text: str, symbols: Mapping[str, str], *, field: str) -> TermFunction:
+    """A formula of given symbols and numbers, in the language of typed terms: a function of known values.
+
+    Args:
+        text: as it was typed, "0.03 - 0.005*angle**2".
+        symbols: name -> meaning of what it may contain, besides pi and the functions.
+        field: where it stands, for errors.
+
+    Raises:
+        InputError: names what in the formula cannot be used; at the field.
+    """
+    known = {**symbols, "pi": SYMBOLS["pi"]}
+    try:
+        tree, evaluate, names = _parsed(text)
+        other = [name for name in names if name not in known]
+        if other:
+            listed = ", ".join(f"{name} ({meaning})" for name, meaning in symbols.items())
+            raise refused(f"'{other[0][:80]}' is not known in this formula", hint=f"{listed}, pi and numbers")
+        if any(isinstance(part, ast.Name) and part.id == "v" for part in ast.walk(tree)):
+            raise refused("this formula has no velocity v", hint=f"of {', '.join(symbols)}")
+        check_written_out(tree=tree, term=text)
+    except InputError as error:
+        message = error.message.replace("the term", "the formula").replace("a term", "a formula")
+        hint = None if error.hint is None else error.hint.replace("-c*sign(v)*P", "0.03 - 0.005*angle**2")
+        raise InputError(message, field=field, hint=hint) from error
+
+    def value(values: Mapping[str, Value]) -> Value:
+        try:
+            with errors_of_term(term=text):
+                return evaluate({**values, "pi": math.pi})
+        except InputError as error:
+            raise error.at(field) from error
+
+    return value
+
+
+def _parsed(term: str) -> tuple[ast.expr, TermFunction, dict[str, None]]:
+    """The tree of a typed text, a function of its names, and the names in their order.
+
+    Raises:
+        InputError: names what in it cannot be used.
+    """
+    if not isinstance(term, str) or not term.strip():
+        raise refused("the term is empty", hint="e.g. -c*sign(v)*P")
+    if len(term) > _LONGEST:
+        raise refused(f"the term has {len(term)} characters, at most {_LONGEST}")
+    if odd := term[_USABLE.match(term).end() :]:  # type: ignore - it matches the empty text
+        raise refused(f"{_character_name(odd[0])} cannot be part of a term", hint=_ALLOWED)
+    try:
+        tree = ast.parse(term.strip().replace("^", "**"), mode="eval")
+    except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
+        raise refused(f"'{shown(part=term)}' is not a formula", hint="e.g. -c*sign(v)*P") from error
+    names: dict[str, None] = {}
+    with errors_of_term(term=term):
+        evaluate = _node(tree.body, names, 0)
+    return tree.body, evaluate, names
 
 
 def typed_effect(document: Mapping[str, float | str]) -> tuple[Effect, str]:

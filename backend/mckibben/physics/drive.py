@@ -28,19 +28,23 @@ the time at rest is a state of its effect. A stop that holds the load carries al
 In an antagonist pair the first muscle contracts by s0 + s and the second by s0 - s. The second has its own
 gas, and its tension acts against the first.
 
+At a joint whose levers change with its angle :math:`\varphi`, s is the way :math:`R\varphi` of a rim of the
+radius R, the muscles have the lengths :math:`L_i(\varphi)`, and their forces act along s with the shares
+:math:`r_i/R`, :math:`r_i = -dL_i/d\varphi`: the equation above is then that of the torques,
+:math:`J\ddot\varphi = \sum r_i F_i - \dots`, with :math:`M = J/R^2`.
+
 The equations are built on symengine symbols, because they contain derivatives of the volume.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import symengine as se
 
-from mckibben.physics import ops
+from mckibben.physics import joint, ops
 from mckibben.physics.chamber import Motion, Side, muscle_side, with_energy_balance
 from mckibben.physics.drive_terms import (
-    CONSTANTS,
     COUNTER,
     COUNTER_OUTPUTS,
     GUARD_DAMPING,
@@ -50,6 +54,7 @@ from mckibben.physics.drive_terms import (
     LEAST_GUARD,
     LOW_STOP,
     OUTPUTS,
+    PATH_DEGREE,
     SLACK,
     SLIDES_DOWN,
     SLIDES_UP,
@@ -59,6 +64,7 @@ from mckibben.physics.drive_terms import (
 )
 from mckibben.physics.model import Model
 from mckibben.physics.muscle import GEOMETRY, Muscle
+from mckibben.physics.muscle_path import MusclePath
 from mckibben.physics.ops import Value
 
 
@@ -93,7 +99,7 @@ class DriveModel:
         for suffix in suffixes:
             self.states += [StateInfo(f"{name}{suffix}", 0.0, 1e-3) for name in ("supplied", "vented")]
         self.symbols = {state.name: se.Symbol(f"y_{state.name}") for state in self.states}
-        constants = {name: se.Symbol(name) for name in CONSTANTS}
+        constants = {name: se.Symbol(name) for name in structure.constants}
         geometry = {name: se.Symbol(name) for name in GEOMETRY}
         numbers = {
             f"{effect.id}.{p.name}": se.Symbol(f"{effect.id}.{p.name}")
@@ -117,7 +123,9 @@ class DriveModel:
         sides: list[Side] = []
         slack: list[Switch] = []
         direction = se.Symbol("direction")
-        for suffix, sense, opening in (("", 1.0, "opening"), (COUNTER, -1.0, "counter_opening")):
+        effects = self._values(model, y)
+        motions, shares = self._motions(structure, model, effects, direction)
+        for suffix, opening in (("", "opening"), (COUNTER, "counter_opening")):
             if suffix and not structure.pair:
                 continue
             own = {name.removesuffix(suffix): symbol for name, symbol in y.items() if name.endswith(suffix)}
@@ -131,7 +139,7 @@ class DriveModel:
                     values=self._values(model, own),
                     constants=c,
                     states=own,
-                    motion=Motion(y["stroke"], y["speed"], direction, c["precontraction"], sense),
+                    motion=motions[suffix],
                     command=u[opening] + u[f"{opening}_slope"] * passed,
                 )
             )
@@ -140,9 +148,11 @@ class DriveModel:
             name = f"{SLACK}{suffix}"
             slack.append(Switch(name, hanging, guard, LEAST_GUARD, follows=f"length{suffix}"))
         main = sides[0]
-        pull = main.force - (sides[1].force if structure.pair else 0.0)
-        values = self._values(model, y)
-        net, inertia = self._net_force(model, muscle, values, pull, external, direction)
+        pull = main.force * shares[""]
+        if structure.pair:
+            pull = pull + sides[1].force * shares[COUNTER]
+        values = effects
+        net, inertia = self._net_force(structure, model, muscle, values, pull, external, direction)
         self.switches, dry = motion_switches(
             constants=c, stroke=y["stroke"], speed=y["speed"], net_force=net, direction=direction
         )
@@ -187,6 +197,7 @@ class DriveModel:
 
     def _net_force(
         self,
+        structure: DriveStructure,
         model: Model,
         muscle: Muscle,
         values: Mapping[str, Mapping[str, Value]],
@@ -203,7 +214,62 @@ class DriveModel:
         load = factor * (c["mass"] * c["gravity"] + external) + hung
         guided = {"stroke": stroke, "speed": speed, "direction": direction, "load": ops.absolute(load)}
         resisting = load + model.sum("guide", values, guided)
-        return lever**2 * pull - lever * resisting - c["spring"] * stroke, inertia
+        if not structure.path:
+            return lever**2 * pull - lever * resisting - c["spring"] * stroke, inertia
+        against = joint.torque_against(
+            model=model, values=values, angle=stroke / c["rim"], direction=direction
+        )
+        return pull - resisting - c["spring"] * (stroke - c["spring_rest"]) - against / c["rim"], inertia
+
+    def _motions(
+        self,
+        structure: DriveStructure,
+        model: Model,
+        values: Mapping[str, Mapping[str, Value]],
+        direction: Value,
+    ) -> tuple[dict[str, Motion], dict[str, Value]]:
+        """Of each muscle its motion, and the share of its force along the coordinate; by its suffix.
+
+        The coordinate of a joint is its angle times the radius of its rim, and the share of a force its lever
+        over that radius; both are constant on a pulley.
+        """
+        c, stroke, speed = self._constants, self.symbols["stroke"], self.symbols["speed"]
+        suffixes = {"": 1.0, COUNTER: -1.0} if structure.pair else {"": 1.0}
+        if not structure.path:
+            motions = {
+                suffix: Motion(
+                    c["precontraction"] + sense * stroke, sense * speed, sense * direction, sense * stroke
+                )
+                for suffix, sense in suffixes.items()
+            }
+            return motions, dict(suffixes)
+        motions, shares = {}, {}
+        for suffix, sense in suffixes.items():
+            begin = "counter_" if suffix else ""
+            held = joint.held(model=model, values=values, angle=stroke / c["rim"], path=self._path(begin))
+            share = held.lever / c["rim"]
+            motions[suffix] = Motion(
+                se.Symbol("nominal_length") - held.length, share * speed, sense * direction, stroke
+            )
+            shares[suffix] = share
+        return motions, shares
+
+    def _path(self, begin: str) -> MusclePath:
+        """The path of a muscle by its constants."""
+        c = self._constants
+
+        def polynomial(name: str, degree: int) -> Callable[[Value], Value]:
+            def at(angle: Value) -> Value:
+                x = (angle - c["path_middle"]) / c["path_half"]
+                value: Value = c[f"{begin}{name}_{degree}"]
+                for power in range(degree - 1, -1, -1):
+                    value = value * x + c[f"{begin}{name}_{power}"]
+                return value
+
+            return at
+
+        length, lever = polynomial("path_length", PATH_DEGREE), polynomial("path_lever", PATH_DEGREE - 1)
+        return MusclePath(length=length, lever=lever, lever_slope=lever)
 
     def _values(self, model: Model, states: Mapping[str, Value]) -> dict[str, dict[str, Value]]:
         """Parameters and states of each effect."""

@@ -44,6 +44,22 @@ CONSTANTS = (
     "stop_high",
     "slack_damping",
 )
+#: Degree of the polynomials that are the lengths of muscles over the angle of a joint in a run.
+PATH_DEGREE = 16
+# Further constants of a joint whose levers change with the angle: the radius at which its coordinate counts,
+# the stroke at which its spring is relaxed, the middle and the half of its range of angles, and of each
+# muscle the coefficients of length [m] and lever [m] by powers of (angle - middle) / half.
+PATH_CONSTANTS = (
+    "rim",
+    "spring_rest",
+    "path_middle",
+    "path_half",
+    *(f"path_length_{power}" for power in range(PATH_DEGREE + 1)),
+    *(f"path_lever_{power}" for power in range(PATH_DEGREE)),
+)
+COUNTER_PATH_CONSTANTS = tuple(
+    f"counter_{name}" for name in PATH_CONSTANTS if name.startswith(("path_length", "path_lever"))
+)
 # Constants of a segment: command and external force change linearly from their values at ``begin``.
 INPUTS = (
     "opening",
@@ -102,6 +118,7 @@ class DriveStructure:
         flow_control: whether a flow control valve is between valve or tube and muscle.
         quick_exhaust: whether a quick exhaust valve is on the muscle; needs a tube.
         polytropic: whether the gas follows a stated polytropic exponent instead of the energy balance.
+        path: whether the muscles turn a joint at levers that change with its angle.
     """
 
     effects: tuple[Effect, ...]
@@ -112,6 +129,14 @@ class DriveStructure:
     flow_control: bool = False
     quick_exhaust: bool = False
     polytropic: bool = False
+    path: bool = False
+
+    @property
+    def constants(self) -> tuple[str, ...]:
+        """Names of the constants of a run."""
+        if not self.path:
+            return CONSTANTS
+        return (*CONSTANTS, *PATH_CONSTANTS, *(COUNTER_PATH_CONSTANTS if self.pair else ()))
 
 
 @dataclass(frozen=True, slots=True)

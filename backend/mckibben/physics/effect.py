@@ -17,10 +17,11 @@ from mckibben.physics.ops import Value
 from mckibben.physics.parameter import MuscleSize, Parameter, Source
 from mckibben.physics.slots import SLOTS
 
-Kind = Literal["isobaric", "isometric", "isotonic", "diameter", "transient", "static"]
+#: Where an effect shows: kinds of measurements; ``joint`` in those that were made at a joint.
+Kind = Literal["isobaric", "isometric", "isotonic", "diameter", "transient", "static", "joint"]
 #: Version of the contract: a file that states another one is refused. Additions do not change it.
 INTERFACE = 1
-KINDS: tuple[Kind, ...] = ("isobaric", "isometric", "isotonic", "diameter", "transient", "static")
+KINDS: tuple[Kind, ...] = ("isobaric", "isometric", "isotonic", "diameter", "transient", "static", "joint")
 TYPES = ("static", "rate", "hysteretic", "dynamic", "measurement")
 FAMILIES = ("geometry", "elastomer", "friction", "gas", "valve", "tube", "supply", "load", "sensor")
 # Named states in which an effect may claim to contribute nothing; test_effect_contract.py evaluates them.

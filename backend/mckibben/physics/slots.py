@@ -123,6 +123,14 @@ SLOTS: dict[str, Slot] = {
         ("stroke", "speed", "direction", "load"),
         "sum",
     ),
+    "joint_angle": Slot("measured to true angle of a joint [rad]", ("angle",), "chain"),
+    "joint_lever": Slot("multiplies the levers of a joint [-]", (), "product"),
+    "joint_torque": Slot(
+        "torque on a joint to smaller angles, besides that of the muscles [N m]; direction is the sign of "
+        "its motion",
+        ("angle", "direction"),
+        "sum",
+    ),
     "drive_rates": Slot("rates of the effect's states in the drive, in their order", _DRIVE, "concatenate"),
     "pressure_reading": Slot("measured gauge pressure [Pa]", ("reading",), "chain"),
     "force_reading": Slot("measured force [N]", ("reading",), "chain"),

@@ -23,7 +23,7 @@ from mckibben.server import errors, static
 from mckibben.server.errors import error_answer, unexpected_answer
 from mckibben.server.lanes import Lanes
 from mckibben.server.metrics import Requests
-from mckibben.server.routes.curves import curves_router, inverse_router
+from mckibben.server.routes.curves import curves_router, inverse_router, joints_router
 from mckibben.server.routes.drives import (
     linearisations_router,
     simulations_router,
@@ -66,6 +66,7 @@ _TAGS = [
     {"name": "presets", "description": "Real parts, reference curves, measurements and example designs."},
     {"name": "curves", "description": "Static characteristics of a muscle."},
     {"name": "inverse", "description": "Which pressure, which contraction, which range?"},
+    {"name": "joints", "description": "Muscles on levers about one axis, at rest."},
     {"name": "simulations", "description": "Transient simulation of drives."},
     {"name": "linearisations", "description": "Linear models of drives, loops, controller design."},
     {"name": "sizings", "description": "Sizing: from a task to ranked drives."},
@@ -139,6 +140,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         simulations_router,
         linearisations_router,
         inverse_router,
+        joints_router,
         sizings_router,
         studies_router,
         comparisons_router,

@@ -190,12 +190,14 @@ def contained(request: Request, body: object) -> bool:
 
     Args:
         request: of the caller.
-        body: with the effects of a muscle, of a drive or of a saved model.
+        body: with the effects of a muscle, of a drive, of a joint or of a saved model.
     """
     if request.app.state.workers is None:
         return False
     studio: Studio = request.app.state.studio
-    for part in (body, getattr(body, "drive", None), getattr(body, "model", None)):
+    joint = getattr(body, "joint", None)
+    parts = (body, getattr(body, "drive", None), getattr(body, "model", None), joint)
+    for part in (*parts, *getattr(joint, "muscles", ())):
         if isinstance(part, str):
             if not studio.library.is_built_in("drives", part):
                 return True

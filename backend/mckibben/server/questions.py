@@ -7,10 +7,13 @@ from mckibben.application.compare.stated_question import with_noise
 from mckibben.application.curves.curves import CurvesQuestion
 from mckibben.application.curves.inverse import InverseQuestion, question_of_document
 from mckibben.application.diagnose.doubts import with_decisions
+from mckibben.application.joint.joint import JointQuestion
 from mckibben.application.measurement.experiment import QuestionMeasurement, QuestionModel
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.experiment import stated_accuracy, stated_experiment
+from mckibben.documents.joint import joint_of
+from mckibben.documents.joint_question import JointQuestionInput, read_joint_question
 from mckibben.documents.muscle import MuscleInput
 from mckibben.documents.start_model import StartModel, stated_muscle
 from mckibben.documents.studio import Studio
@@ -19,7 +22,7 @@ from mckibben.measurement.points import find_points
 from mckibben.measurement.preparation import prepared_points
 from mckibben.measurement.store import MeasurementStore
 from mckibben.physics.errors import InputError, fields_inside
-from mckibben.server.schemas.curves import CurvesRequest, InverseRequest
+from mckibben.server.schemas.curves import CurvesRequest, InverseRequest, JointRequest
 from mckibben.server.schemas.models import ModelRequest
 from mckibben.simulation.statics.characteristics import Conditions
 
@@ -166,6 +169,18 @@ def curves_question(body: CurvesRequest, studio: Studio) -> CurvesQuestion:
             polytropic_exponent=body.polytropic_exponent,
         ),
     )
+
+
+def joint_question(body: JointRequest, studio: Studio) -> JointQuestion:
+    """The question of a request.
+
+    Raises:
+        InputError: a joint that cannot be; ``field`` is the path in the request.
+    """
+    asked = {name: getattr(body, name) for name in JointQuestionInput.model_fields}
+    with fields_inside("joint"):
+        stated = joint_of(body.joint, studio)
+    return JointQuestion(stated, read_joint_question(asked))
 
 
 def inverse_question(body: InverseRequest, studio: Studio) -> InverseQuestion:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from mckibben.application.compare.compare import compare
 from mckibben.application.curves.curves import curves
 from mckibben.application.curves.inverse import answer
+from mckibben.application.joint.joint import joint_statics
 from mckibben.application.json_text import to_json
 from mckibben.application.measurement.form import experiment_forms, preview_form
 from mckibben.application.measurement.summary import details_of, preview_of, summary_of
@@ -32,10 +33,11 @@ from mckibben.server.job import LONGEST, Job, Prepared
 from mckibben.server.questions import (
     curves_question,
     inverse_question,
+    joint_question,
     measurements_of_question,
     model_question,
 )
-from mckibben.server.schemas.curves import CurvesRequest, InverseRequest
+from mckibben.server.schemas.curves import CurvesRequest, InverseRequest, JointRequest
 from mckibben.server.schemas.drives import SimulationRequest
 from mckibben.server.schemas.exports import ExportRequest
 from mckibben.server.schemas.models import ComparisonRequest, DiagnosisRequest
@@ -243,6 +245,10 @@ def _inverse(body: InverseRequest, studio: Studio, _store: MeasurementStore) -> 
     return lambda _: to_json(answer(inverse_question(body, studio), studio))
 
 
+def _joint(body: JointRequest, studio: Studio, _store: MeasurementStore) -> Prepared:
+    return lambda _: to_json(joint_statics(joint_question(body, studio)))
+
+
 def _simulation(body: SimulationRequest, studio: Studio, _store: MeasurementStore) -> Prepared:
     run = simulate.prepare(simulation_question(body, studio))
 
@@ -281,6 +287,7 @@ SHORT_JOBS: Mapping[str, Job] = {
     "fitted model": Job(_fitted_model, _COMPARE_WITHIN, "models", looks=False, hint=_FEWER),
     "computation of curves": Job(_curves, _COMPUTE_WITHIN, "models", looks=False, hint=_SIMPLER),
     "inverse question": Job(_inverse, _COMPUTE_WITHIN, "models", looks=False, hint=_SIMPLER),
+    "joint": Job(_joint, _COMPUTE_WITHIN, "models", looks=False, hint=_SIMPLER),
     "simulation": Job(_simulation, LONGEST, lane="models", hint=_SIMPLER),
     "export": Job(_export, _COMPARE_WITHIN, "models", looks=False, hint=_SIMPLER),
     "compiled export": Job(_export, _COMPILE_WITHIN, looks=False, hint="take the C sources"),

@@ -65,7 +65,7 @@
  *   tells?: Telling[]}} Step */
 /** A model on the board, with the data it was fitted to. @typedef {Step & {name: string, of: string}} Pinned */
 /** What the residual is plotted over; "auto": the variable of the overlay.
- * @typedef {"auto" | "contraction" | "pressure" | "velocity" | "direction" | "time" | "histogram" |
+ * @typedef {"auto" | "angle" | "contraction" | "pressure" | "velocity" | "direction" | "time" | "histogram" |
  *   "autocorrelation" | "cross" | "loops"} Tab */
 /** Ranges of variables in SI. @typedef {Record<string, [number, number]>} Brush */
 /** Decisions about entries that may be wrong; they hold for the files `of`, their ids joined by commas.
@@ -87,7 +87,7 @@
 
 /** Supply, valve, tube, load, command, controller, …; numbers in SI. @typedef {Record<string, any>} Drive */
 /** How the load of a drive is arranged.
- * @typedef {"hanging" | "inclined" | "horizontal" | "lever" | "antagonist"} DriveArrangement */
+ * @typedef {"hanging" | "inclined" | "horizontal" | "lever" | "antagonist" | "joint"} DriveArrangement */
 /** A whole drive document, muscle and effects included. @typedef {{name: string, drive: Drive}} Pin */
 /** The quantity of the plot that shows one of several. @typedef {"flow" | "force" | "valve"} Lower */
 /** What the phase plot shows when it is zoomed.

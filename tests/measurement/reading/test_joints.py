@@ -1,4 +1,4 @@
-"""Joints of two muscles: they are refused with what can be done, and one muscle on a pulley can be read."""
+"""Joints: torque over angle with one or two pressures, and one muscle on a pulley as on its rim."""
 
 from __future__ import annotations
 
@@ -31,12 +31,18 @@ RIM = f"{np.radians(90.0) * RADIUS * 1e3:.6f}"
 ON_RIM = ["force=torque [0 to 3 Nm = 0 to 100 N]", f"displacement=angle [0 to 90 deg = 0 to {RIM} mm]"]
 
 
-def test_a_joint_is_refused_with_what_can_be_done_instead() -> None:
-    with pytest.raises(InputError, match="joint of two muscles") as error:
-        read(250.0 - 80.0 * SWING, [], [])
-    for said in ("one of them vented", "antagonist", "force=torque [0 to 3 Nm", "displacement=angle"):
-        assert said in str(error.value)
-    assert "no text states the radius" not in str(error.value)  # which muscle is meant comes first
+def test_a_joint_of_two_muscles_is_torque_over_angle_with_two_pressures() -> None:
+    found = read(250.0 - 80.0 * SWING, [], [])
+    assert found.columns["pressure"] == pytest.approx(1e3 * (250.0 + 80.0 * SWING), abs=6.0)
+    assert found.columns["counter_pressure"] == pytest.approx(1e3 * (250.0 - 80.0 * SWING), abs=6.0)
+    assert found.columns["angle"] == pytest.approx(np.radians(20.0 - 15.0 * np.cos(TIME / 30.0)), abs=1e-5)
+    assert found.columns["torque"] == pytest.approx(0.03 * 160.0 * SWING + 2.0, abs=1e-4)
+    assert "force" not in found.columns
+    assert any("'P2 [kPa]' is read as the pressure of the second muscle" in said for said in found.messages)
+
+
+def test_one_pressure_twice_is_none_of_a_second_muscle() -> None:
+    assert "counter_pressure" not in read(251.0 + 80.5 * SWING, [], []).columns
 
 
 def test_whoever_takes_one_of_its_pressures_is_told_what_that_means() -> None:

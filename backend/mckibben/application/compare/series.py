@@ -41,6 +41,8 @@ class ComparedSeries:
     """Length of each point [m]."""
     x_pressure: Series
     """Pressure of each point [Pa]."""
+    angle: Series | None
+    """Angle of the joint of each point [rad]; null where none was measured."""
     velocity: Series
     """dL/dt of each point [m/s]."""
     direction: Series
@@ -55,7 +57,10 @@ class ComparedSeries:
 
 @result_class
 class ComparedReversals:
-    """Readings of force where the motion turns, each with the range of friction; SI, shape (points,)."""
+    """Readings of force or torque where the motion turns, each with its range of friction.
+
+    SI, shape (points,).
+    """
 
     FIGURES: ClassVar = REVERSALS.name
 
@@ -70,12 +75,14 @@ class ComparedReversals:
     """Length of each point [m]."""
     x_pressure: Series
     """Pressure of each point [Pa]."""
+    angle: Series | None
+    """Angle of the joint of each point [rad]; null where none was measured."""
     velocity: Series
     """dL/dt of each point [m/s]."""
     measured: Series
-    """Measured."""
+    """Measured, in the unit of the error."""
     low: Series
-    """The least force that the model allows."""
+    """The least that the model allows."""
     high: Series
     """The most that it allows."""
 
@@ -90,6 +97,7 @@ class KnownInputs:
     pressure: Array
     velocity: Array
     direction: Array
+    angle: Array | None = None
 
 
 def inputs_of(comparison: Comparison) -> KnownInputs:
@@ -109,6 +117,7 @@ def inputs_of(comparison: Comparison) -> KnownInputs:
         length=length,
         contraction=1.0 - length / rest,
         pressure=inputs.get("pressure", unknown),
+        angle=inputs.get("angle"),
         velocity=inputs.get("velocity", unknown),
         direction=inputs.get("direction", unknown),
     )
@@ -117,8 +126,8 @@ def inputs_of(comparison: Comparison) -> KnownInputs:
 def rows_of(comparison: Comparison) -> dict[str, NDArray[Any]]:
     """All compared rows as columns, SI; those of several predicted channels one below the other.
 
-    Columns: channel (text), group (number), time where there is one, pressure, length, contraction, velocity,
-    measured, predicted, residual (measured minus predicted).
+    Columns: channel (text), group (number), time and angle where there are any, pressure, length,
+    contraction, velocity, measured, predicted, residual (measured minus predicted).
     """
     predictor, known = comparison.predictor, inputs_of(comparison)
     channel = np.empty(len(predictor.measured), dtype=object)
@@ -127,6 +136,8 @@ def rows_of(comparison: Comparison) -> dict[str, NDArray[Any]]:
     columns: dict[str, NDArray[Any]] = {"channel": channel, "group": np.asarray(predictor.groups)}
     if known.time is not None:
         columns["time"] = known.time
+    if known.angle is not None:
+        columns["angle"] = known.angle
     return columns | {
         "pressure": known.pressure,
         "length": known.length,
@@ -167,6 +178,7 @@ def series_of(comparison: Comparison, use: Literal["fit", "validation"]) -> tupl
                     contraction=known.contraction[rows],
                     length=known.length[rows],
                     x_pressure=known.pressure[rows],
+                    angle=None if known.angle is None else known.angle[rows],
                     velocity=known.velocity[rows],
                     direction=known.direction[rows],
                     measured=predictor.measured[rows],
@@ -196,6 +208,7 @@ def reversals_of(comparison: Comparison) -> tuple[ComparedReversals | None, bool
         contraction=(1.0 - length / found.muscle_length)[rows],
         length=length[rows],
         x_pressure=found.inputs["pressure"][rows],
+        angle=None if "angle" not in found.inputs else found.inputs["angle"][rows],
         velocity=found.inputs["velocity"][rows],
         measured=found.measured[rows],
         low=found.low[rows],

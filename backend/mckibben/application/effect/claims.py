@@ -38,7 +38,7 @@ from mckibben.application.effect.states import (
 )
 from mckibben.physics import ideal
 from mckibben.physics.catalogue import default_catalogue
-from mckibben.physics.effect import KINDS, Effect
+from mckibben.physics.effect import Effect
 from mckibben.physics.model import ROOM_TEMPERATURE, Model, State
 from mckibben.physics.units import si
 
@@ -246,9 +246,13 @@ def _shows_in(effect: Effect) -> dict[str, float]:
 
 
 def check_kinds(effect: Effect) -> None:
-    """Visible in exactly the measurement kinds it names, and exactly invisible in the others."""
+    """Visible in exactly the measurement kinds it names, and exactly invisible in the others.
+
+    What acts on the muscle shows at a joint as well, and does not name it.
+    """
     shown = _shows_in(effect)
-    for kind in KINDS:
+    claim("joint" not in effect.kinds, "names joint, where only effects of the joint itself add anything")
+    for kind in shown:
         if kind in effect.kinds:
             claim(shown[kind] > 1e-9, f"names {kind}, where nothing of it shows")
         else:

@@ -23,6 +23,7 @@ from mckibben.application.effect.states import (
     grid,
 )
 from mckibben.physics.effect import Effect
+from mckibben.physics.joint import JOINT_SLOTS
 from mckibben.physics.model import Model, State
 
 
@@ -209,7 +210,7 @@ def check_drive_claims(effect: Effect) -> None:
     slots = set(effect.slots)
     channels = {"force_reading", "pressure_reading", "stroke_reading", "skew"} & slots
     slow = {"isobaric", "isometric", "isotonic"} if channels else {"isotonic"} if "guide" in slots else set()
-    claim(effect.kinds == {"transient"} | slow)
+    claim(effect.kinds == ({"joint"} if slots <= JOINT_SLOTS else {"transient"} | slow))
     claim((signature.energy == "reading") == bool(channels))
     if "guide" in slots:
         for speed in (-1.0, -SPEED, SPEED, 1.0):

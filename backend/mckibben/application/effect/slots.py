@@ -30,6 +30,7 @@ RANGES: dict[str, tuple[float, float]] = {
     "absolute_pressure": (0.6e5, 9e5),
     "ambient_pressure": (0.9e5, 1.05e5),
     "tube_length": (0.0, 10.0),
+    "angle": (-2.0, 2.0),
     "opening": (-1.0, 1.0),
     "conductance": (1e-10, 1e-7),
     "supply_pressure": (3e5, 1.1e6),

@@ -26,6 +26,7 @@ from mckibben.application.run.simulate import POINTS, result_of
 from mckibben.documents.drive_reading import AnnotatedDrive
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.units import si
+from mckibben.simulation.drive.joint_path import refuse_path
 from mckibben.simulation.linear.bound import SLIDING_SPEED
 from mckibben.simulation.linear.design import design
 from mckibben.simulation.linear.equations import COMMAND, LOAD_FORCE, POSITION
@@ -91,6 +92,7 @@ def prepare(question: LinearQuestion) -> Callable[[Watch], LinearResult]:
     Raises:
         InputError: as `linear_view`.
     """
+    refuse_path(question.annotated.drive.path, "the linear view")
     linear = linearise(question.annotated.drive, question.at, sliding_speed=question.sliding_speed)
     _check(question, linear)
     return lambda watch: _answer(question, linear, watch)

@@ -15,7 +15,8 @@ CHANNEL_HEADERS = {
     "time": "time_s", "pressure": "pressure_Pa", "force": "force_N", "length": "length_m",
     "contraction": "contraction_1", "displacement": "displacement_m", "diameter": "diameter_m",
     "velocity": "velocity_m/s", "command": "command_1", "temperature": "temperature_K",
-    "direction": "direction", "group": "group",
+    "angle": "angle_rad", "torque": "torque_N*m", "lever": "lever_m",
+    "counter_pressure": "counter_pressure_Pa", "direction": "direction", "group": "group",
 }  # fmt: skip
 
 

@@ -35,7 +35,10 @@ _PREPARE = "prepare"  # of an entry: the steps that prepare it, instead of those
 _LIST_EXAMPLE = '[{"file": "a.csv", "rest_length": "250 mm", "load": "3 kg"}]'
 
 # What may answer a question of the file while it is read.
-_CONDITIONS = ("force_zero", "pressure_zero", "inclination", "valve", "tube", "stops", "fixed_end")
+_CONDITIONS = (
+    "force_zero", "pressure_zero", "inclination", "valve", "tube", "stops", "fixed_end", "lever",
+    "contraction_at_zero",
+)  # fmt: skip
 
 
 def measurements_of(

@@ -21,6 +21,8 @@ _USUAL_UNITS = {
     "force": ("N", "kN", "lbf"), "length": ("mm", "m", "cm", "in"), "contraction": ("%", "1"),
     "displacement": ("mm", "m", "cm", "in"), "diameter": ("mm", "m", "in"), "velocity": ("m/s", "mm/s"),
     "command": ("1", "%"), "temperature": ("degC", "K", "degF"),
+    "angle": ("deg", "rad"), "torque": ("N*m",), "lever": ("mm", "cm", "m", "in"),
+    "counter_pressure": ("bar", "kPa", "MPa", "mbar", "psi", "Pa"),
 }  # fmt: skip
 
 

@@ -53,7 +53,8 @@ def use_of_run(run: Run) -> dict[str, MeasuredRange]:
         return {}
     rest, stroke = drive.muscle.nominal_length, run.states["stroke"]
     speed = float(np.max(np.abs(run.states["speed"])))
-    ends = (drive.precontraction + float(pick(stroke)) / rest for pick in (np.min, np.max))
+    contraction = drive.contraction(stroke)
+    ends = (float(pick(contraction)) for pick in (np.min, np.max))
     use = (
         range_of("rest_length", rest)
         | range_of("pressure", float(np.min(run.pressure)), float(np.max(run.pressure)))

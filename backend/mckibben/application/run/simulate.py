@@ -74,20 +74,20 @@ _ABOVE = 1.001  # value over limit up to which the excess may be an integration 
 
 @result_class
 class JointMotion:
-    """The pulley of an antagonist pair, and its second muscle."""
+    """A joint, and its second muscle, whose channels are null where there is one muscle."""
 
     FIGURES: ClassVar = JOINT.name
 
     angle: Series
     torque: Series
     stiffness: Series
-    counter_force: Series
-    counter_pressure: Series
-    counter_command: Series
-    counter_mass_flow: Series
-    counter_supply_flow: Series
-    counter_exhaust_flow: Series
-    counter_diameter: Series
+    counter_force: Series | None
+    counter_pressure: Series | None
+    counter_command: Series | None
+    counter_mass_flow: Series | None
+    counter_supply_flow: Series | None
+    counter_exhaust_flow: Series | None
+    counter_diameter: Series | None
     angle_reference: Series | None
     stiffness_reference: Series | None
     stiffness_error: float | None
@@ -97,7 +97,7 @@ class JointMotion:
 
 
 def joint_of(run: Run, rows: Array, figures: Run) -> JointMotion | None:
-    """Angle, torque and stiffness of a pair's pulley; the stiffness at constant pressures.
+    """Angle, torque and stiffness of a joint; the stiffness at constant pressures.
 
     Args:
         run: the run.
@@ -108,34 +108,20 @@ def joint_of(run: Run, rows: Array, figures: Run) -> JointMotion | None:
     if drive.pulley_radius is None:
         return None
     radius = drive.pulley_radius
-    counter = run.outputs[f"force{COUNTER}"][rows]
     error, wanted = None, None
     if drive.stiffness is not None:
         wanted = np.asarray(drive.stiffness.reference.value(run.time[rows]))
         if len(figures.time) > 1:
             square = (_stiffness(figures, slice(None)) - drive.stiffness.reference.value(figures.time)) ** 2
             error = float(np.sqrt(np.trapezoid(square, figures.time) / np.ptp(figures.time)))
-    flows = (run.outputs[f"{name}_flow{COUNTER}"][rows] for name in ("mass", "supply", "exhaust"))
-    if run.counter_command is not None:
-        command = run.counter_command.value(run.time)[rows]
-    else:
-        own = drive.command if drive.reference is None else run.command
-        command = 2.0 * drive.common_command - np.asarray(own.value(run.time))[rows]
-    inflow, supplied, vented = flows
     angle = run.states["stroke"][rows] / radius
     stiffness = _stiffness(run, rows)
-    torque = radius * (run.outputs["force"][rows] - counter)
+    torque = _torque(run, rows)
     return JointMotion(
         angle=angle,
         torque=torque,
         stiffness=stiffness,
-        counter_force=counter,
-        counter_pressure=run.states[f"pressure{COUNTER}"][rows] - drive.ambient_pressure,
-        counter_command=command,
-        counter_mass_flow=inflow,
-        counter_supply_flow=supplied,
-        counter_exhaust_flow=vented,
-        counter_diameter=run.outputs[f"diameter{COUNTER}"][rows],
+        **_second_muscle(run, rows),
         angle_reference=None
         if drive.reference is None
         else np.asarray(drive.reference.value(run.time))[rows] / radius,
@@ -147,6 +133,44 @@ def joint_of(run: Run, rows: Array, figures: Run) -> JointMotion | None:
     )
 
 
+_SECOND = (
+    "counter_force", "counter_pressure", "counter_command", "counter_mass_flow", "counter_supply_flow",
+    "counter_exhaust_flow", "counter_diameter",
+)  # fmt: skip
+
+
+def _second_muscle(run: Run, rows: Array) -> dict[str, Array | None]:
+    """Channels of the second muscle of a joint; None of each where there is one muscle."""
+    drive = run.drive
+    if not drive.pair:
+        return dict.fromkeys(_SECOND)
+    if run.counter_command is not None:
+        command = run.counter_command.value(run.time)[rows]
+    else:
+        own = drive.command if drive.reference is None else run.command
+        command = 2.0 * drive.common_command - np.asarray(own.value(run.time))[rows]
+    flows = (run.outputs[f"{name}_flow{COUNTER}"][rows] for name in ("mass", "supply", "exhaust"))
+    values = (
+        run.outputs[f"force{COUNTER}"][rows],
+        run.states[f"pressure{COUNTER}"][rows] - drive.ambient_pressure,
+        command,
+        *flows,
+        run.outputs[f"diameter{COUNTER}"][rows],
+    )
+    return dict(zip(_SECOND, values, strict=True))
+
+
+def _torque(run: Run, rows: Array) -> Array:
+    """Torque of the muscles on the joint [N m]."""
+    drive = run.drive
+    forces = [run.outputs[f"force{suffix}"][rows] for suffix in ("", COUNTER)[: 1 + drive.pair]]
+    if drive.path is None:
+        return (drive.pulley_radius or 0.0) * (forces[0] - forces[1])
+    stroke = run.states["stroke"][rows]
+    levers = [np.asarray(drive.held(stroke, number).lever) for number in range(len(forces))]
+    return np.sum([lever * force for lever, force in zip(levers, forces, strict=True)], axis=0)
+
+
 def _range(values: Array) -> tuple[float, float]:
     """Least and largest value; NaN of none."""
     finite = values[np.isfinite(values)]
@@ -154,19 +178,24 @@ def _range(values: Array) -> tuple[float, float]:
 
 
 def _stiffness(run: Run, rows: Array | slice) -> Array:
-    """Stiffness of the joint at constant pressures [N m/rad]."""
+    """Stiffness of the joint at constant pressures [N m/rad]; of a path with the change of its levers."""
     drive = run.drive
     stroke = run.states["stroke"][rows]
-    middle = drive.muscle.nominal_length * (1.0 - drive.precontraction)
     total = np.zeros(len(stroke))
-    for sense, name in ((1.0, "pressure"), (-1.0, f"pressure{COUNTER}")):
+    for number, length in enumerate(drive.lengths(stroke)):
+        name = f"pressure{COUNTER}" if number else "pressure"
         seen = drive.model.outputs(
-            length=middle - sense * stroke,
+            length=length,
             pressure=run.states[name][rows] - drive.ambient_pressure,
             temperature=drive.temperature,
         )
-        total += np.where(seen["tension"] > 0.0, seen["tension_by_length"], 0.0)
-    return (drive.pulley_radius or 0.0) ** 2 * total
+        lever, slope = np.full(len(stroke), drive.pulley_radius or 0.0), np.zeros(len(stroke))
+        if drive.path is not None:
+            lever = np.asarray(drive.held(stroke, number).lever)
+            slope = np.asarray(drive.path.path(number).lever_slope(stroke / drive.path.rim))
+        own = lever**2 * seen["tension_by_length"] - slope * seen["tension"]
+        total += np.where(seen["tension"] > 0.0, own, 0.0)
+    return total
 
 
 @dataclass(frozen=True, slots=True)
@@ -363,7 +392,7 @@ def result_of(
     table = once(lambda: timing_of(drive, trace()))
     follows = once(lambda: tracking_of(figures(), trace()))
     between = once(lambda: held_interval(drive))
-    contraction = once(lambda: states["stroke"] / rest + drive.precontraction)
+    contraction = once(lambda: drive.contraction(states["stroke"]))
 
     def at_rows(name: str, of: Mapping[str, Array] = out, over: float = 1.0) -> Callable[[], Array]:
         return lambda: of[name][rows] if over == 1.0 else of[name][rows] / over
@@ -372,7 +401,7 @@ def result_of(
         return states[name][rows] - drive.ambient_pressure if name in states else None
 
     def at_rest(direction: float) -> Array | None:
-        if not static:
+        if not static or drive.path is not None:
             return None
         return static_contraction(
             drive,
@@ -418,7 +447,7 @@ def result_of(
         rest=lambda: rest_of_run(run) if run.outcome is Outcome.COMPLETED else None,
         start=lambda: StartPosition(
             run.start.stroke / lever,
-            run.start.stroke / rest + drive.precontraction,
+            float(drive.contraction(run.start.stroke)),
             run.start.why.value,
             *(end if end is None else end / lever for end in between() or (None, None)),
         ),
@@ -451,7 +480,7 @@ def result_of(
 def _flags(annotated: AnnotatedDrive, run: Run) -> list[Notice]:
     """Remarks on a run."""
     drive = run.drive
-    contraction = run.states["stroke"] / drive.muscle.nominal_length + drive.precontraction
+    contraction = drive.contraction(run.states["stroke"])
     return [
         *start_notices(annotated.start),
         *curve_fit_notices(drive.curve_fit),
@@ -529,11 +558,7 @@ def _crossed(run: Run) -> Iterable[LimitFlag]:
     if not len(run.time):
         return
     drive = run.drive
-    contraction = np.clip(
-        run.states["stroke"] / drive.muscle.nominal_length + drive.precontraction,
-        drive.min_contraction,
-        drive.max_contraction,
-    )
+    contraction = drive.contraction(np.clip(run.states["stroke"], *drive.stops))
     limits = drive.model.limits
     # The smallest contraction is checked for the pretension limit, the largest for all others.
     for pick, stretch in ((np.nanmax, False), (np.nanmin, True)):

@@ -14,6 +14,7 @@ from mckibben.export.c_static import RESULT_MEMBERS
 from mckibben.export.drive_equations import COUNTER_OPENING, FORCE, OPENING, SUPPLY
 from mckibben.export.drive_words import Words
 from mckibben.export.language import words_of
+from mckibben.export.sources import PATH_WORDS
 from mckibben.export.subject import RunnableDrive, Subject
 from mckibben.physics.drive_terms import CONSTANTS, COUNTER
 from mckibben.physics.model import ROOM_TEMPERATURE
@@ -111,7 +112,7 @@ class Plant:
             known, values = drive.words("parameter"), drive.parameters
         found = []
         for full, value in values.items():
-            name = f"drive.{full}" if full in CONSTANTS else full
+            name = f"drive.{full}" if full in CONSTANTS or full in PATH_WORDS else full
             least, most = bounds.get(full) or bounds_of(full)
             if (least is not None and value < least) or (most is not None and value > most):
                 least = most = None

@@ -3,6 +3,7 @@
 | kind | given | predicted |
 |---|---|---|
 | isobaric, isometric, static | pressure, length (and time, where rates or memory matter) | force |
+| the same at a joint | pressures, angle, levers | torque |
 | isotonic | pressure, load | length |
 | diameter | pressure or length | diameter |
 | transient | command, supply, load | pressure, displacement (force where measured) |
@@ -16,6 +17,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from mckibben.identification.predict.comparable_rows import comparable_rows
+from mckibben.identification.predict.joint import JointPredictor, joint_rows, of_joint
 from mckibben.identification.predict.moving import TransientPredictor
 from mckibben.identification.predict.moving_records import highest_stop, hung_weights, lowest_stop
 from mckibben.identification.predict.predictor import PredictedChannel, Predictor
@@ -59,10 +61,17 @@ def predictor_of(
         InputError: a channel, a condition or the drive is missing.
     """
     if measurement.kind != "transient":
+        levered = of_joint(measurement)
         task = comparable_rows(measurement, muscle)
         pressure = max(float(task.state["pressure"].max()), 1.0)
         blocked = ideal.force(braid=muscle.braid, pressure=pressure, length=muscle.nominal_length)
-        predictor = QuasistaticPredictor(task, largest_load=float(blocked))
+        if levered:
+            rows = joint_rows(measurement, task)
+            predictor: QuasistaticPredictor | JointPredictor = JointPredictor(
+                task, rows, largest_load=float(blocked)
+            )
+        else:
+            predictor = QuasistaticPredictor(task, largest_load=float(blocked))
         _set_accuracy(predictor, dict(accuracy or {}))
         return _sharing_noise(predictor, measurement)
     transient = TransientPredictor(measurement, drive or driven_by_pressure(measurement, muscle))
@@ -77,7 +86,7 @@ def _sharing_noise(predictor: Predictor, measurement: Measurement) -> Predictor:
     return predictor
 
 
-def _set_accuracy(predictor: QuasistaticPredictor, accuracy: dict[str, float]) -> None:
+def _set_accuracy(predictor: Predictor, accuracy: dict[str, float]) -> None:
     """Clamped lengths as reading errors; all other accuracies are common to all rows."""
     length = accuracy.pop("length", 0.0) if predictor.kind == "isometric" else 0.0
     if length > 0.0:

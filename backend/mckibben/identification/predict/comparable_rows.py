@@ -154,6 +154,9 @@ def comparable_rows(measurement: Measurement, muscle: Muscle) -> ComparableRows:
     if measured is None:
         raise InputError(f"{measurement.name}: no {channel} was measured", field=channel)
     keep, excluded = measurement.usable.copy(), dict(measurement.exclusions)
+    for name in ("angle", "lever", "torque", "counter_pressure"):
+        if name in columns:
+            state[name] = columns[name]
     if length is not None:
         too_long = length >= _LONGEST_SHARE * float(muscle.braid.thread_length)
         excluded["beyond the braid lock"] = int(np.count_nonzero(too_long & keep))

@@ -17,6 +17,7 @@ from mckibben.measurement.measurement import STROKES, Measurement, lengths
 from mckibben.measurement.reading.conditions import COMMAND_BEFORE
 from mckibben.physics.errors import InputError
 from mckibben.simulation.command.signals import TableSignal
+from mckibben.simulation.drive.joint_path import refuse_path
 from mckibben.simulation.drive.many_runs import Pieces
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.transient import dead_times, segments_after
@@ -218,6 +219,7 @@ def record_of(measurement: Measurement, drive: Drive, rows: np.ndarray) -> Recor
         InputError: it is too short.
     """
     columns, conditions = measurement.columns, measurement.conditions
+    refuse_path(drive.path, f"{measurement.name}: a comparison over time")
     if drive.stiffness is not None:
         raise InputError(
             f"{measurement.name}: a joint whose stiffness is controlled is not compared: its two commands "

@@ -105,6 +105,7 @@ class Reversals:
         inputs: of the same rows, as those of `Predictor`, which may hold fewer.
         muscle_length: rest length of the muscle of each row [m].
         rows: index of each row in its measurement.
+        unit: of the readings, SI.
     """
 
     measured: np.ndarray
@@ -113,6 +114,7 @@ class Reversals:
     inputs: Mapping[str, np.ndarray]
     muscle_length: np.ndarray
     rows: np.ndarray
+    unit: str = "N"
 
     @property
     def distance(self) -> np.ndarray:
@@ -142,7 +144,7 @@ class Reversals:
         farthest = np.argsort(-self.distance, kind="stable")[: min(outside, _LISTED)]
         names = ", ".join(f"row {self.rows[row] + 1}" for row in np.sort(farthest))
         more = f" and {outside - _LISTED} more" if outside > _LISTED else ""
-        off = f"by up to {np.max(self.distance):.3g} N: {names}{more}"
+        off = f"by up to {np.max(self.distance):.3g} {self.unit}: {names}{more}"
         apart = (
             f"{rows} rows at reversals are counted apart: dry friction may have any value of its range there"
         )
@@ -168,6 +170,7 @@ class Reversals:
             {name: joined(lambda part, name=name: part.inputs[name]) for name in names},
             joined(lambda part: part.muscle_length),
             joined(lambda part: part.rows),
+            parts[0].unit,
         )
 
 

@@ -359,6 +359,9 @@ def said(reading: Reading) -> list[str]:
             reason = _reason(reading, i, f"zero:{channel}", None)
             done = "subtracted from" if use.zero > 0.0 else "added to"
             lines.append(f"{abs(use.zero):g} {CHANNEL_UNITS[channel]} is {done} the {channel}: {reason}")
+    if "counter_pressure" in reading.decision.uses:
+        title = reading.table.columns[reading.decision.uses["counter_pressure"][0]].title
+        lines.append(f"'{title}' is read as the pressure of the second muscle of the joint")
     lines += [
         f"'{other}' runs against the pressure you took: in a joint of two muscles the force is that of both"
         for other in antagonists(reading)

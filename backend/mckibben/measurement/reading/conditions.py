@@ -18,15 +18,21 @@ COMMAND_BEFORE = "command_before"
 CONDITION_UNITS = {
     "load_mass": "kg", "load_force": "N", "supply_pressure": "Pa", "nominal_length": "m", "temperature": "K",
     "inclination": "rad", "force_zero": "N", "pressure_zero": "Pa", "ambient_pressure": "Pa",
-    COMMAND_BEFORE: "1",
+    COMMAND_BEFORE: "1", "contraction_at_zero": "1",
 }  # fmt: skip
 #: Conditions with a meaning that are text.
 TEXT_CONDITIONS = (
-    "muscle", "sample", "pressure", "accuracy", "valve", "tube", "stops", "fixed_end",
+    "muscle", "sample", "pressure", "accuracy", "valve", "tube", "stops", "fixed_end", "lever",
 )  # fmt: skip
 #: Key of the columns that a file says are not to be read.
 IGNORE = "ignore"
-_SIGNED = ("inclination", "force_zero", "pressure_zero", COMMAND_BEFORE)  # conditions that may be negative
+_SIGNED = (
+    "inclination",
+    "force_zero",
+    "pressure_zero",
+    COMMAND_BEFORE,
+    "contraction_at_zero",
+)  # conditions that may be negative
 _INCLINATIONS = {"vertical": "90 deg", "hanging": "90 deg", "horizontal": "0 deg"}
 _MAX_TEXT = 200
 _QUANTITY = re.compile(r"([+-]?[0-9.]{1,40}(?:[eE][+-]?[0-9]{1,3})?)\s{0,8}(\D.{0,40})")

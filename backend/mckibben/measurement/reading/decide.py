@@ -44,7 +44,6 @@ FINAL = (
     "deviation",
     "tube size",
     "a value",
-    "lever",
     "slack",
     "condition",
     "ignored",
@@ -54,7 +53,8 @@ _ASIDE = ("set value", "running number", "remark", "raw", "words", "counter", "s
 SLOTS = {
     "time": "time", "pressure": "pressure", "force": "force", "length": "stroke", "contraction": "stroke",
     "displacement": "stroke", "command": "command", "diameter": "diameter",
-    "temperature": "temperature", "velocity": "velocity",
+    "temperature": "temperature", "velocity": "velocity", "angle": "angle", "torque": "torque",
+    "lever": "lever",
 }  # fmt: skip
 _MAIN = ("pressure", "force", "stroke")
 
@@ -378,7 +378,7 @@ def decide(table: Table, evidence: Sequence[Evidence], facts: Facts) -> Decision
     score, winner = ranked[0]
     uses: dict[str, tuple[int, Use]] = {o.use.channel: (o.column, o.use) for o in winner if o is not None}
     taken = {o.column for o in winner if o is not None}
-    for slot in ("time", "command", "diameter", "temperature", "velocity"):
+    for slot in ("time", "command", "diameter", "temperature", "velocity", "angle", "torque", "lever"):
         best = next(
             (
                 o
@@ -402,6 +402,8 @@ def decide(table: Table, evidence: Sequence[Evidence], facts: Facts) -> Decision
         ):
             uses[option.use.channel] = option.column, option.use
             taken.add(option.column)
+    if (other := _counter(uses, slots["pressure"], taken, table)) is not None:
+        uses["counter_pressure"] = other.column, other.use._replace(channel="counter_pressure")
     for channel, (i, use) in uses.items():
         bad = [(t, v) for t, v in scorer.alone(Option(9.0, i, use)) if v <= -3.0]
         if bad:
@@ -416,7 +418,29 @@ def decide(table: Table, evidence: Sequence[Evidence], facts: Facts) -> Decision
     )
 
 
-_ASIDE_SLOTS = ("velocity", "diameter")
+_SAME_PRESSURE = 0.95  # correlation from which a second pressure is that of the same muscle
+
+
+def _counter(
+    uses: Mapping[str, tuple[int, Use]], pressures: Sequence[Option], taken: set[int], table: Table
+) -> Option | None:
+    """The pressure of a second muscle, where a joint's torque over its angle was measured."""
+    if not {"torque", "angle", "pressure"} <= set(uses) or "force" in uses:
+        return None
+    mine = table.columns[uses["pressure"][0]].values
+    for option in sorted(pressures, key=lambda o: -o.score):
+        other = table.columns[option.column].values
+        both = np.isfinite(mine) & np.isfinite(other)
+        if option.column in taken or option.score <= 0.0 or both.sum() < 3:
+            continue
+        if not (np.ptp(mine[both]) and np.ptp(other[both])):
+            return option
+        if np.corrcoef(mine[both], other[both])[0, 1] < _SAME_PRESSURE:
+            return option
+    return None
+
+
+_ASIDE_SLOTS = ("velocity", "diameter", "angle", "torque", "lever")
 
 
 def _is_said(option: Option, evidence: Sequence[Evidence], facts: Facts) -> bool:

@@ -64,9 +64,9 @@ def with_derived(table: Table) -> Table:
 
 
 def _only(
-    columns: Sequence[Column], units: Sequence[Unit | None], dimension: str, role: str | None
+    columns: Sequence[Column], units: Sequence[Unit | None], dimension: str, channel: str | None
 ) -> int | None:
-    """The one column of numbers in a unit, with a role; None = there is none, or several."""
+    """The one column of numbers in a unit, with a channel of that name; None = there is none, or several."""
     found = [
         i
         for i, (c, u) in enumerate(zip(columns, units, strict=True))
@@ -74,8 +74,8 @@ def _only(
         and u is not None
         and u.dimension == dimension
         and (
-            role is None
-            or any(x.facet == "role" and x.value == role for x in head_claims(c.head[:200], c.unit))
+            channel is None
+            or any(x.facet == "channel" and x.value == channel for x in head_claims(c.head[:200], c.unit))
         )
     ]
     return found[0] if len(found) == 1 else None

@@ -44,6 +44,7 @@ BY_UNIT = {
     "pressure": (("pressure", 2.5),), "force": (("force", 2.5),), "time": (("time", 2.0),),
     "length": (("length", 0.8), ("displacement", 0.8)), "ratio": (("contraction", 0.4), ("command", 0.4)),
     "mass": (("force", 1.2),), "temperature": (("temperature", 4.0),), "speed": (("velocity", 2.0),),
+    "angle": (("angle", 2.0),), "torque": (("torque", 2.5),),
 }  # fmt: skip
 _UNIT_STATED, _CLOCK_SHOWN, _TEXTS, _COUNTS, _SINCE_1970 = 5.0, 5.0, 6.0, 3.0, 4.0
 _EVEN = 4.0  # nats of even steps, from row to row of a long record

@@ -55,7 +55,7 @@ LEFT_OUT = {
     "diameter": ("mm", "cm", "m", "in"),
     "contraction": ("%", "1"), "velocity": ("mm/s", "m/s"), "time": ("s", "ms", "min"),
     "temperature": ("degC", "K"),
-    "command": ("1", "%"),
+    "command": ("1", "%"), "angle": ("deg", "rad"), "torque": ("N*m",), "lever": ("mm", "cm", "m", "in"),
 }  # fmt: skip
 _STEPS = Range(1e-6, 4.0)  # s between the readings of a moving muscle
 

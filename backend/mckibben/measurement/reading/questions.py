@@ -643,10 +643,11 @@ def antagonists(reading: Reading) -> list[str]:
     if "pressure" not in reading.rows.channels or not reading.by_user("pressure"):
         return []
     i = reading.decision.uses["pressure"][0]
+    counter = [use[0] for channel, use in reading.decision.uses.items() if channel == "counter_pressure"]
     others = [
         j
         for j, c in enumerate(reading.table.columns)
-        if j != i and c.words is None and reading.claims(j, "pressure")
+        if j != i and c.words is None and reading.claims(j, "pressure") and j not in counter
     ]
     return [reading.table.columns[j].title for j in others if _joint(reading, i, j)]
 
@@ -1001,7 +1002,9 @@ def _counted(reading: Reading) -> Iterator[Question]:
     channels = reading.rows.channels
     if set(channels) & {*STROKES, "diameter"}:
         return
-    used = {i for i, _ in reading.decision.uses.values()}
+    if "torque" in channels:  # the angle is that of a joint
+        return
+    used = {i for channel, (i, _) in reading.decision.uses.items() if channel != "angle"}
     for i, column in enumerate(reading.table.columns):
         unit = reading.unit(i)
         angle = unit is not None and dimension_of(unit) == "angle"
@@ -1028,7 +1031,9 @@ def _counted(reading: Reading) -> Iterator[Question]:
 
 
 def _torque(reading: Reading) -> Iterator[Question]:
-    """A torque, where the file has no force."""
+    """A torque, where the file has no force, and no angle that makes it one of a joint."""
+    if "angle" in reading.rows.channels:
+        return
     for i, column in enumerate(reading.table.columns):
         unit = reading.unit(i)
         if unit is None or dimension_of(unit) != "torque" or {"force"} & set(reading.rows.channels):
@@ -1372,7 +1377,7 @@ def _unknown_unit(reading: Reading) -> Iterator[Question]:
 
 def _load(reading: Reading) -> Iterator[Question]:
     channels, conditions = reading.rows.channels, reading.known.conditions
-    loaded = "load_mass" in conditions or "load_force" in conditions or "force" in channels
+    loaded = "load_mass" in conditions or "load_force" in conditions or {"force", "torque"} & set(channels)
     if not loaded and (set(STROKES) & set(channels) or "pressure" in channels) and "diameter" not in channels:
         yield Question(
             "load",

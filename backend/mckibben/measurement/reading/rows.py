@@ -42,7 +42,7 @@ _UNKNOWN_WAYS = frozenset(("", "-", "unknown", "none", "nan", "na", "n/a"))
 _WAYS = ("shortening", "lengthening", "pressure_rises", "pressure_falls", "one_way", "other_way")
 _PAIRS = (("shortening", "lengthening"), ("pressure_rises", "pressure_falls"), ("one_way", "other_way"))
 _SIDES = {"pressure_rises": 1.0, "pressure_falls": -1.0, "one_way": 1.0, "other_way": -1.0}
-_OPTIONAL = ("temperature", "velocity", "diameter")
+_OPTIONAL = ("temperature", "velocity", "diameter", "angle", "torque", "lever")
 _IMPOSSIBLE = {
     "length": ("is not a length", "a length above 0"), "diameter": ("is not a diameter", "a diameter above "
                                                                                          "0"),

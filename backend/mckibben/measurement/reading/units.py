@@ -45,7 +45,8 @@ FITTING = {
     "time": ("time",), "pressure": ("pressure",), "force": ("force", "mass"), "length": ("length",),
     "displacement": ("length",), "contraction": ("ratio",), "diameter": ("length",), "velocity": ("speed",),
     "command": ("ratio",), "temperature": ("temperature",), "group": ("", "ratio"),
-    "direction": ("", "ratio"),
+    "direction": ("", "ratio"), "angle": ("angle",), "torque": ("torque",), "lever": ("length",),
+    "counter_pressure": ("pressure",),
 }  # fmt: skip
 #: Unit of a mass -> that of its weight.
 WEIGHTS = {"kg": "kgf", "g": "gf", "lb": "lbf", "oz": "ozf"}

@@ -98,7 +98,7 @@ def _drawing(material: SizingMaterial, chosen: Chosen, phase: _DrawnPhase) -> Ht
     pressures: list[Mark] = [line(run.pressure, BAR, "muscle", ACCENT)]
     if run.tube_pressure is not None:
         pressures.append(line(run.tube_pressure, BAR, "tube", EDGE, width=1.2))
-    if joint is not None:
+    if joint is not None and joint.counter_pressure is not None:
         second = column(joint.counter_pressure, BAR)
         pressures.append(Line(since, second, "second muscle", SECOND))
     pressures.append(

@@ -130,11 +130,10 @@ def _joint(result: SimulationResult) -> list[Table]:
     rows = [
         ["Angle at the end", figure(float(joint.angle[-1]) * degrees, unit="°")],
         ["Stiffness at the end", figure(float(joint.stiffness[-1]), unit=" N·m/rad")],
-        [
-            "Pressures at the end",
-            f"{result.pressure[-1] / 1e5:.3g} and {joint.counter_pressure[-1] / 1e5:.3g} bar",
-        ],
     ]
+    if joint.counter_pressure is not None:
+        both = f"{result.pressure[-1] / 1e5:.3g} and {joint.counter_pressure[-1] / 1e5:.3g} bar"
+        rows.append(["Pressures at the end", both])
     if joint.stiffness_error is not None:
         each = JOINT["stiffness_error"]
         rows.append([each.label, shown(each, joint.stiffness_error)])

@@ -1,4 +1,4 @@
-"""The static characteristics of one muscle, and inverse questions."""
+"""The static characteristics of one muscle, inverse questions, and joints at rest."""
 
 from __future__ import annotations
 
@@ -7,15 +7,18 @@ from fastapi.concurrency import run_in_threadpool
 
 from mckibben.application.curves.curves import CurvesResult, curves
 from mckibben.application.curves.inverse import InverseFinding
+from mckibben.application.joint.joint import JointResult
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StoreDep, StudioDep
 from mckibben.server.long_work import contained, whole
 from mckibben.server.questions import curves_question
 from mckibben.server.schemas.common import errors
-from mckibben.server.schemas.curves import CurvesRequest, InverseRequest
+from mckibben.server.schemas.curves import CurvesRequest, InverseRequest, JointRequest
 
 curves_router = APIRouter(prefix="/api/curves", tags=["curves"], route_class=StrictRoute)
+
+joints_router = APIRouter(prefix="/api/joints", tags=["joints"], route_class=StrictRoute)
 
 inverse_router = APIRouter(prefix="/api/inverse", tags=["inverse"], route_class=StrictRoute)
 
@@ -54,3 +57,17 @@ async def answer_question(
     """A pressure, contraction, working range or stroke pressure, with the limits it crosses."""
     quick = not contained(request, body)
     return JsonAnswer(await whole(request, "inverse question", body, studio, store, quick=quick))
+
+
+@joints_router.post(
+    "",
+    response_model=JointResult,
+    responses=errors(400, 413, 415, 422, 429),
+    openapi_extra=request_examples.worked("joint"),
+)
+async def compute_joint(
+    body: JointRequest, request: Request, studio: StudioDep, store: StoreDep
+) -> JsonAnswer:
+    """Torque and stiffness over the angle, resting angles, and pressures for an angle and a stiffness."""
+    quick = not contained(request, body)
+    return JsonAnswer(await whole(request, "joint", body, studio, store, quick=quick))

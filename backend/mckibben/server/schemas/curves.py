@@ -1,4 +1,4 @@
-"""Requests of ``/api/curves`` and ``/api/inverse``: characteristics of one muscle, and inverse questions."""
+"""Requests of ``/api/curves``, ``/api/inverse`` and ``/api/joints``: muscles and joints at rest."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from pydantic import Field
 
 from mckibben.documents import inverse
 from mckibben.documents.inverse import Direction
+from mckibben.documents.joint import JointDocument
+from mckibben.documents.joint_question import JointQuestionInput
 from mckibben.documents.muscle import EffectsInput, Muscle
 from mckibben.documents.quantity import (
     Contraction,
@@ -81,6 +83,12 @@ class WorkingRangeQuestion(_OfMuscle, inverse.WorkingRangeQuestion):
 
 class StrokePressureQuestion(_OfMuscle, inverse.StrokePressureQuestion):
     """The pressure that lifts a load by a stroke, while filling."""
+
+
+class JointRequest(JointQuestionInput):
+    """A joint, and what is asked of it."""
+
+    joint: JointDocument = Field(description="The joint.")
 
 
 InverseRequest = Annotated[

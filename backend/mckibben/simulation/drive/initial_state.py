@@ -158,11 +158,17 @@ def beyond_lock() -> InputError:
     )
 
 
+def stroke_at_lock(drive: Drive) -> float:
+    """The stroke at which the braid of the first muscle locks [m]; of a path the lower stop, short of it."""
+    if drive.path is not None:
+        return drive.stops[0]
+    return drive.muscle.nominal_length * (1.0 - drive.precontraction) - drive.model.longest
+
+
 def _rest(drive: Drive, net_force: Callable[[float], float]) -> tuple[float, Rest]:
     """The stroke at rest, and why; the net force does not increase with the stroke."""
     low, high = drive.stops
-    rest = drive.muscle.nominal_length
-    lock = rest * (1.0 - drive.precontraction) - drive.model.longest  # the stroke at the braid lock
+    lock = stroke_at_lock(drive)
     lowest = max(low, lock)
     below = net_force(lowest)
     if below < -BALANCED:
@@ -201,7 +207,7 @@ class _Search:
             self.packed[index] = self.specific * rough
         self.stroke = self.names.index("stroke")
         table = dict(zip(compiled.model.parameters, parameters, strict=True))
-        #: Distance of the fittings at stroke 0 [m].
+        #: Distance of the fittings at stroke 0 [m], unless they lie on a path.
         self.middle = float(table["nominal_length"] - table["precontraction"])
         self.lengths = self._places("length")
         self.net = compiled.model.output_names.index("net_force")
@@ -225,8 +231,10 @@ class _Search:
     def net_force(self, stroke: float) -> float:
         """Force along the stroke without that of the stops [N]."""
         self.packed[self.stroke] = stroke
-        for place, sense in zip(self.lengths, (1.0, -1.0), strict=False):
-            self.packed[place] = self.middle - sense * stroke
+        straight = (self.middle - stroke, self.middle + stroke)
+        lengths = straight if self.drive.path is None else self.drive.lengths(stroke)
+        for place, length in zip(self.lengths, lengths, strict=False):
+            self.packed[place] = float(length)
         self._call_outputs()
         return float(self._outputs[self.net])
 

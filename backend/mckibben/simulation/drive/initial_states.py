@@ -17,6 +17,7 @@ from mckibben.simulation.drive.initial_state import (
     Rest,
     beyond_lock,
     reached_rest,
+    start_of,
     stated_stroke,
     without_friction,
 )
@@ -57,8 +58,31 @@ def starts_of_many(
     """
     sets = len(parameters)
     each = [drives] * sets if isinstance(drives, Drive) else list(drives)
+    if each and each[0].path is not None:
+        return _one_by_one(each, compiled, np.asarray(parameters, float), np.asarray(inputs, float))
     with np.errstate(all="ignore"):
         return _Search(each, compiled, np.asarray(parameters, float), np.asarray(inputs, float)).found()
+
+
+def _one_by_one(
+    drives: list[Drive], compiled: CompiledDrive, parameters: np.ndarray, inputs: np.ndarray
+) -> Starts:
+    """The starts of joints whose levers change with the angle: their lengths are no lines of the stroke."""
+    sets, size = len(drives), compiled.size
+    states, strokes = np.full((sets, size), np.nan), np.full(sets, np.nan)
+    switches = np.zeros((sets, len(compiled.model.switches)))
+    why, errors = [Rest.BALANCED] * sets, list[InputError | None]([None] * sets)
+    for place, drive in enumerate(drives):
+        try:
+            start = start_of(
+                drive, compiled, parameters[place], inputs if inputs.ndim == 1 else inputs[place]
+            )
+        except InputError as error:
+            errors[place] = error
+            continue
+        states[place], switches[place] = start.state, start.switches
+        strokes[place], why[place] = start.stroke, start.why
+    return Starts(states, switches, strokes, tuple(why), tuple(errors))
 
 
 def _of_drives(drives: list[Drive], value: Callable[[Drive], float]) -> np.ndarray:

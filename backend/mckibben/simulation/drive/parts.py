@@ -5,13 +5,20 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import pi, radians
 
-from mckibben.physics import gas, ideal
+import numpy as np
+from numpy.typing import NDArray
+
+from mckibben.physics import gas, ideal, joint
 from mckibben.physics.drive_terms import DriveStructure
+from mckibben.physics.model import Model
 from mckibben.physics.muscle import Muscle
 from mckibben.simulation.command.pid import PidController
 from mckibben.simulation.command.pwm import PulseWidth
 from mckibben.simulation.command.signals import Signal
+from mckibben.simulation.drive.joint_path import JointPath
 from mckibben.simulation.statics.model import StaticModel
+
+Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,6 +158,7 @@ class Drive:
         stiffness: second set point of a controlled pair; its controller then gives half the difference of
             both commands.
         common: command that both muscles of a pair have in common; None = 0.5 of a regulator, 0 of a valve.
+        path: of the muscles of a joint whose levers change with its angle; None = pulley or straight line.
         curve_fit: what it was fitted to, with parts that do not exist; "" of a drive.
     """
 
@@ -185,6 +193,7 @@ class Drive:
     common: float | None = None
     ambient_pressure: float = ideal.ATMOSPHERE
     temperature: float = 293.15
+    path: JointPath | None = None
     curve_fit: str = ""
 
     @property
@@ -234,14 +243,42 @@ class Drive:
             flow_control=self.flow_control is not None,
             quick_exhaust=self.quick_exhaust is not None,
             polytropic=self.polytropic_exponent is not None,
+            path=self.path is not None,
         )
 
     @property
     def stops(self) -> tuple[float, float]:
-        """End stops as strokes of the muscle [m]; of a pair measured from the middle position."""
+        """End stops as strokes of the muscle [m]; of a pair measured from the middle position.
+
+        Of a joint with a path they are ways of its rim.
+        """
+        if self.path is not None:
+            return self.path.low * self.path.rim, self.path.high * self.path.rim
         rest = self.muscle.nominal_length
         low, high = (c - self.precontraction for c in (self.min_contraction, self.max_contraction))
         return low * rest, high * rest
+
+    def lengths(self, stroke: Array | float) -> tuple[Array, ...]:
+        """Distance of the fittings of each muscle at strokes [m]; of a joint with what its effects change."""
+        along = np.asarray(stroke, float)
+        if self.path is not None:
+            return tuple(self.held(along, number).length for number in range(1 + self.pair))
+        rest = self.muscle.nominal_length
+        middle = rest - self.precontraction * rest
+        return (middle - along, middle + along)[: 1 + self.pair]
+
+    def held(self, stroke: Array, number: int) -> joint.Held:
+        """Length and lever of a muscle of a joint at ways of its rim [m], with what effects change."""
+        if self.path is None:
+            raise ValueError("only the muscles of a joint with a path have levers over its angle")
+        effects = [effect for effect in self.model.effects if set(effect.slots) <= joint.JOINT_SLOTS]
+        angle = stroke / self.path.rim
+        path = self.path.path(number)
+        return joint.held(model=Model(effects), values=self.model.values, angle=angle, path=path)
+
+    def contraction(self, stroke: Array | float) -> Array:
+        """Contraction ratio of the (first) muscle, by the distance of its fittings, at strokes [m]."""
+        return 1.0 - self.lengths(stroke)[0] / self.muscle.nominal_length
 
     def counter(self, command: float) -> float:
         """Command of the second muscle of a pair: -u for a valve, 1 - u for a regulator, or 2 c - u."""

@@ -9,7 +9,7 @@ from math import sin
 import numpy as np
 
 from mckibben.physics import gas, ideal
-from mckibben.physics.drive_terms import CONSTANTS, INPUTS
+from mckibben.physics.drive_terms import INPUTS
 from mckibben.physics.model import Model
 from mckibben.physics.muscle import GEOMETRY
 from mckibben.simulation.command.segments import Segments, delayed, merged
@@ -25,7 +25,6 @@ GRAVITY = 9.80665  # m/s2
 _SLACK_TIME = 2e-6
 _LIGHTEST = 1e-3  # kg; least moving mass: without mass there is no equation of motion
 _FREE = 1.0  # m3/(s Pa); conductance of free flow: a million times that of the largest valve
-_CONSTANTS = frozenset(CONSTANTS)
 # At 1e-5 a step may jump over the moment at which a load leaves its stop (0.4 mm in paper-ramp).
 TOLERANCE = 1e-6
 
@@ -112,7 +111,10 @@ def constants_of(drive: Drive) -> dict[str, float]:
         "stop_high": stop_high,
         "slack_damping": max(float(blocked) / (0.25 * rest), 1.0) * _SLACK_TIME,
     }
-    assert table.keys() == _CONSTANTS  # noqa: S101 - a constant without a value is a programming error
+    if drive.path is not None:
+        table |= drive.path.constants
+    wanted = drive.structure.constants
+    assert table.keys() == set(wanted)  # noqa: S101 - a constant without a value is a programming error
     table |= {name: float(getattr(muscle, name)) for name in GEOMETRY}
     for effect, effect_values in drive.model.values.items():
         for name, value in effect_values.items():

@@ -150,12 +150,15 @@ function fieldsOfSignal(part) {
   return typeof part.level === "number" ? { ...square, initial: part.level - amplitude } : part;
 }
 
+/** Levels of a drive: the table of the path of a muscle of a joint is the deepest. */
+const MOST_DEPTH = 10;
+
 /** Only numbers, texts, lists and objects, not nested deeply.
  * @param {unknown} x @param {number} [depth] @returns {boolean} */
 function isPlain(x, depth = 0) {
   if (x === null || typeof x === "boolean" || typeof x === "string") return true;
   if (typeof x === "number") return Number.isFinite(x);
-  if (depth > 6 || typeof x !== "object") return false;
+  if (depth > MOST_DEPTH || typeof x !== "object") return false;
   return Object.values(x).every((/** @type {unknown} */ one) => isPlain(one, depth + 1));
 }
 
@@ -194,7 +197,14 @@ const longForm = (document) =>
 const UPRIGHT = Math.PI / 2, TILTED = Math.PI / 6, LEVER = 2, PULLEY = 0.03;
 /** The inclination of the load in each arrangement, unless the document gives it.
  * @type {Record<Arrangement, number>} */
-const INCLINED = { hanging: UPRIGHT, inclined: UPRIGHT, horizontal: 0, lever: UPRIGHT, antagonist: 0 };
+const INCLINED = {
+  hanging: UPRIGHT,
+  inclined: UPRIGHT,
+  horizontal: 0,
+  lever: UPRIGHT,
+  antagonist: 0,
+  joint: 0,
+};
 const near = (/** @type {number} */ a, /** @type {number} */ b) => Math.abs(a - b) < 1e-3;
 
 /** The arrangement of the load, from its numbers if the document does not name it. @param {Drive | undefined} load
@@ -223,7 +233,7 @@ export function withArrangement(load) {
  * @param {Drive} load @param {Arrangement} next @param {number} middle contraction in the middle between the stops
  * @returns {Drive} */
 export function rearranged(load, next, middle) {
-  const { pulley_radius: _r, precontraction: _e, lever_ratio: ratio, inclination, ...rest } = load;
+  const { pulley_radius: _r, precontraction: _e, lever_ratio: ratio, inclination, joint, ...rest } = load;
   const angle = siNumber(inclination);
   const tilted = angle === null || near(angle, 0) || near(angle, UPRIGHT) ? TILTED : angle;
   /** @type {Record<Arrangement, object>} */
@@ -233,6 +243,7 @@ export function rearranged(load, next, middle) {
     inclined: { inclination: tilted },
     lever: { lever_ratio: ratio ?? LEVER, ...(inclination === undefined ? {} : { inclination }) },
     antagonist: { pulley_radius: PULLEY, precontraction: middle },
+    joint: { joint },
   };
   return { ...rest, arrangement: next, ...fields[next] };
 }

@@ -11,6 +11,7 @@ import { addPart } from "../../state.js";
 /** @type {import("../../types.js").Tab[]} */
 const TABS = [
   "auto",
+  "angle",
   "contraction",
   "pressure",
   "velocity",

@@ -80,6 +80,7 @@ export const overNoise = (ratio) =>
 
 /** Where a series holds a channel. @type {Record<string, (s: Series) => (number | null)[] | null>} */
 const COLUMNS = {
+  angle: (s) => s.angle,
   contraction: (s) => s.contraction,
   pressure: (s) => s.x_pressure,
   velocity: (s) => s.velocity,
@@ -107,6 +108,7 @@ export const column = (s, name) => VARIABLES[name]?.of(s) ?? [];
  * @param {string} name @returns {(number | null)[]} */
 export const atReversals = (r, name) =>
   ({
+    angle: r.angle,
     contraction: r.contraction,
     pressure: r.x_pressure,
     velocity: r.velocity,

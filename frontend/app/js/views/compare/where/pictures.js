@@ -39,9 +39,12 @@ export const variables = computed(() => {
   return a ? Object.keys(VARIABLES).filter((name) => varies(allSeries(a), name)) : [];
 });
 
-/** The x variable of the overlay for a kind of test. @param {string} kind */
-const usualOver = (kind) =>
-  kind === "transient" ? "time" : kind === "isometric" || kind === "isotonic" ? "pressure" : "contraction";
+/** The x variable of the overlay for a kind of test; at a joint its angle. @param {string} kind */
+const usualOver = (kind) => {
+  if (kind === "transient") return "time";
+  if (variables.value.includes("angle")) return "angle";
+  return kind === "isometric" || kind === "isotonic" ? "pressure" : "contraction";
+};
 
 /** Variables that the overlay can be drawn over. */
 export const across = computed(() => variables.value.filter((name) => name !== "direction"));

@@ -27,6 +27,7 @@ import { channelWords, errorText, rangeText, VARIABLES } from "../words.js";
 
 /** @type {[Tab, string, string][]} */
 const TABS = [
+  ["angle", "Angle", "Residual over the angle of the joint"],
   ["contraction", "ε", "ε: residual over contraction"],
   ["pressure", "Pressure", "Residual over pressure"],
   ["direction", "Direction", "Residual over direction"],

@@ -22,6 +22,9 @@ const ARRANGEMENTS = [
   ["lever", "On a lever"],
   ["antagonist", "Antagonist pair"],
 ];
+/** Of a document that states one; its levers, inertia, spring and stops are edited there.
+ * @type {[Arrangement, string]} */
+const JOINT = ["joint", "Joint"];
 
 /** The fields of each arrangement besides the mass. @type {Record<Arrangement, string[]>} */
 const FIELDS = {
@@ -30,6 +33,7 @@ const FIELDS = {
   horizontal: [],
   lever: ["load.lever_ratio", "load.inclination"],
   antagonist: ["load.pulley_radius", "load.precontraction"],
+  joint: [],
 };
 const USUAL_MIDDLE = 0.1;
 const PAIR_MASS = "As if moved at the rim of the pulley: the inertia divided by the radius squared.";
@@ -109,7 +113,36 @@ export function loadCard() {
     { class: "card", "aria-label": "Load" },
     h("div", { class: "card-head" }, h("h2", null, "Load")),
     partMessage("load"),
-    choiceField("Arrangement", () => ARRANGEMENTS, () => arrangement.value, arrange, "load.arrangement"),
+    choiceField(
+      "Arrangement",
+      () => isJoint.value ? [...ARRANGEMENTS, JOINT] : ARRANGEMENTS,
+      () => arrangement.value,
+      arrange,
+      "load.arrangement",
+    ),
+    () => isJoint.value ? jointText() : null,
+    ...alongALine(stopped).map((child) => () =>
+      isJoint.value ? null : typeof child === "function" ? child() : child
+    ),
+  );
+}
+
+const isJoint = computed(() => arrangement.value === "joint");
+
+/** What a joint is made of. */
+function jointText() {
+  const own = at(drive.value, "load.joint"),
+    muscles = own?.muscles?.length === 2 ? "Two muscles" : "One muscle";
+  return h(
+    "p",
+    { class: "hint" },
+    `${muscles} at levers that change with the angle. Levers, inertia, spring, link and stops are in the drive document.`,
+  );
+}
+
+/** What moves along a line or on a pulley. @param {{value: boolean}} stopped */
+function alongALine(stopped) {
+  return [
     arrangementFields,
     signalFields({
       path: "load.force",
@@ -134,5 +167,5 @@ export function loadCard() {
       driveField("start.position"),
       reachedField,
     ),
-  );
+  ];
 }

@@ -82,7 +82,7 @@ export function pairPicture(width) {
     const s = scene.value, r = run.value, i = row.value;
     const angle = r?.joint?.angle[i], position = r?.position[i];
     if (!s || !r || angle == null || position == null) return;
-    const pressures = [r.pressure[i] ?? 0, r.joint?.counter_pressure[i] ?? 0];
+    const pressures = [r.pressure[i] ?? 0, r.joint?.counter_pressure?.[i] ?? 0];
     const most = [...r.pressure, ...r.joint?.counter_pressure ?? []].reduce(
       (/** @type {number} */ top, v) => Math.max(top, v ?? 0),
       1,

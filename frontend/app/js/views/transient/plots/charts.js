@@ -197,7 +197,7 @@ export function readout() {
     cell("p", answer.pressure, "pressure"),
     cell("F", answer.force, "force"),
     cell("ε", answer.contraction, "ratio"),
-    cell(answer.joint ? "Ø1" : "Ø", answer.diameter, "length"),
+    cell(answer.joint?.counter_diameter ? "Ø1" : "Ø", answer.diameter, "length"),
     ...(answer.joint ? jointCells(answer.joint, cell) : []),
   ];
 }

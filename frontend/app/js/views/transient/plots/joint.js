@@ -55,7 +55,7 @@ export const jointCells = (joint, cell) => [
   cell("φ", joint.angle, "angle"),
   cell("M", joint.torque, "torque"),
   cell("k", joint.stiffness, "rotary"),
-  cell("Ø2", joint.counter_diameter, "length"),
+  ...(joint.counter_diameter ? [cell("Ø2", joint.counter_diameter, "length")] : []),
 ];
 
 /** The value of a column with the largest magnitude; null without a joint. @param {Run} r @param {Column} key */

@@ -185,17 +185,17 @@ export function pressureSpec(v, p) {
   if (run.tube_pressure) {
     lines.push({
       id: "tube",
-      name: run.joint ? "tube 1" : "tube",
+      name: run.joint?.counter_pressure ? "tube 1" : "tube",
       values: run.tube_pressure,
       color: p.second,
       dash: "dash",
       width: 1.5,
     });
   }
-  if (run.joint) lines.push(second(p, run.joint.counter_pressure));
+  if (run.joint?.counter_pressure) lines.push(second(p, run.joint.counter_pressure));
   lines.push({
     id: "muscle",
-    name: run.joint ? "muscle 1" : "muscle",
+    name: run.joint?.counter_pressure ? "muscle 1" : "muscle",
     values: run.pressure,
     color: p.accent,
   });
@@ -258,9 +258,14 @@ export function lowerSpec(v, p) {
         dash: "dash",
         width: 1.5,
       },
-      { id: "flow", name: run.joint ? "muscle 1" : "muscle", values: run.mass_flow, color: p.accent },
+      {
+        id: "flow",
+        name: run.joint?.counter_pressure ? "muscle 1" : "muscle",
+        values: run.mass_flow,
+        color: p.accent,
+      },
     ];
-    if (run.joint) lines.push(second(p, run.joint.counter_mass_flow));
+    if (run.joint?.counter_mass_flow) lines.push(second(p, run.joint.counter_mass_flow));
     return overTime(v, p, {
       key: lower,
       title: figure("run.mass_flow").label,
@@ -270,9 +275,9 @@ export function lowerSpec(v, p) {
     });
   }
   if (lower === "force") {
-    const name = run.joint ? "muscle 1" : "force of the muscle";
+    const name = run.joint?.counter_pressure ? "muscle 1" : "force of the muscle";
     lines = [{ id: "force", name, values: run.force, color: p.accent }];
-    if (run.joint) lines.unshift(second(p, run.joint.counter_force));
+    if (run.joint?.counter_force) lines.unshift(second(p, run.joint.counter_force));
     const outer = run.load_force.some((x) => x !== 0);
     if (outer) {
       lines.unshift({
@@ -300,7 +305,7 @@ export function lowerSpec(v, p) {
   lines = [
     { id: "command", name: "command", values: run.command, color: p.second, dash: "dash", width: 1.5 },
     { id: "opening", name: "opening", values: run.opening, color: p.accent },
-    ...(run.joint ? [{ ...second(p, run.joint.counter_command), name: "command 2" }] : []),
+    ...(run.joint?.counter_command ? [{ ...second(p, run.joint.counter_command), name: "command 2" }] : []),
   ];
   return overTime(v, p, {
     key: lower,

@@ -1,0 +1,1 @@
+"""What a joint does at rest: torque over angle, stiffness, pressures for an angle and a stiffness."""
