@@ -244,7 +244,7 @@ LIFT = Group(
         _ASKED_CONTRACTION, quantity="ratio",
     ),
     Figure(
-        "pressure_filling", "P", "Pa", "Pressure for the contraction",
+        "pressure_filling", "P", "Pa", "Pressure",
         "Gauge pressure up to 40 bar that holds the load at the asked contraction, reached while filling.",
         _ASKED_BOTH,
     ),

@@ -1,7 +1,7 @@
 // @ts-check
 // Elements built by function calls. A function as attribute or child is evaluated again whenever a signal it
 // reads changes.
-import { effect } from "./reactive.js";
+import { effect, scope } from "./reactive.js";
 
 /** @typedef {Node | string | number | null | undefined | false} Leaf */
 /** @typedef {Leaf | Leaf[] | (() => Leaf | Leaf[])} Child */
@@ -65,6 +65,36 @@ export function append(el, kid) {
   else if (kid != null && kid !== false) {
     el.appendChild(kid instanceof Node ? kid : document.createTextNode(String(kid)));
   }
+}
+
+/** An element with a child for each item. A child stays, with its focus, as long as an item has its key; what it shows
+ * of the item it reads from signals.
+ * @template {keyof HTMLElementTagNameMap} K @template T
+ * @param {K} tag @param {Record<string, unknown> | null} props @param {() => T[]} items @param {(item: T) => unknown} keyOf
+ * @param {(item: T) => HTMLElement} build @returns {HTMLElementTagNameMap[K]} */
+export function each(tag, props, items, keyOf, build) {
+  const el = h(tag, props);
+  /** @type {Map<unknown, [HTMLElement, () => void]>} */
+  const shown = new Map();
+  effect(() => {
+    const now = items(), keys = new Set(now.map(keyOf));
+    for (const [key, [child, stop]] of shown) {
+      if (keys.has(key)) continue;
+      const focused = child.contains(document.activeElement);
+      const beside = /** @type {HTMLElement | null} */ (child.nextElementSibling ?? child.previousElementSibling);
+      stop();
+      child.remove();
+      shown.delete(key);
+      if (focused) /** @type {HTMLElement | null | undefined} */ (beside?.querySelector("button, input"))?.focus();
+    }
+    now.forEach((item, i) => {
+      const key = keyOf(item);
+      if (!shown.has(key)) shown.set(key, scope(() => build(item)));
+      const child = /** @type {[HTMLElement, () => void]} */ (shown.get(key))[0];
+      if (el.children[i] !== child) el.insertBefore(child, el.children[i] ?? null);
+    });
+  });
+  return el;
 }
 
 const SVG = "http://www.w3.org/2000/svg";

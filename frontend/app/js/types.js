@@ -33,9 +33,10 @@
 /** @typedef {"contraction" | "length" | "braid_angle"} Across */
 /** @typedef {"contraction" | "length" | "diameter" | "outer_diameter" | "outer_diameter_at_fixed_length" | "force"} Over */
 /** @typedef {"tangent" | "from_force" | "secant"} StiffnessOf */
-/** The Design view's part of the document; SI throughout.
+/** The Design view's part of the document; SI throughout. `pressure`: that which is asked about, null: the highest of
+ * the curves; `contraction`: that whose pressure is asked for; `load_as`: what was stated.
  * @typedef {{muscle: Muscle, effects: Record<string, Record<string, number>> | null, pressures: number[],
- *   load: number, direction: -1 | 0 | 1, temperature: number, dead_volume: number,
+ *   pressure: number | null, contraction: number | null, load: number, load_as: "force" | "mass", direction: -1 | 0 | 1, temperature: number, dead_volume: number,
  *   fixed_length: number | null, range: [number, number] | null, clipped: boolean, across: Across,
  *   over: Over, stiffness: StiffnessOf,
  *   reference: string | null}} Design */

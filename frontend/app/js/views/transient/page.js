@@ -10,7 +10,7 @@ import { figureCards } from "./figures/figures.js";
 import { measuredCard } from "./measured.js";
 import { faultNotice, goToField } from "../../ui/fault.js";
 import { fault, faultField, retry, run, stale, startRuns } from "./model.js";
-import { inputCards } from "./inputs/panel.js";
+import { driveEffects, inputCards } from "./inputs/panel.js";
 import { startPins } from "./pinned-runs.js";
 import { compareCard } from "./pinned/card.js";
 
@@ -45,6 +45,7 @@ export function transientPage() {
       linearCard(),
     ),
     results,
+    driveEffects(),
   );
   startRuns();
   startPins();
