@@ -90,11 +90,11 @@
 /** How the load of a drive is arranged.
  * @typedef {"hanging" | "inclined" | "horizontal" | "lever" | "antagonist"} DriveArrangement */
 /** A whole drive document, muscle and effects included. @typedef {{name: string, drive: Drive}} Pin */
-/** The quantity of the plot that shows one of several. @typedef {"flow" | "force" | "valve"} Lower */
 /** What the phase plot shows when it is zoomed.
  * @typedef {{pressure: [number, number], contraction: [number, number]}} Zoom */
-/** The Transient view's part of the document.
- * @typedef {{drive: Drive, mode: "command" | "controller", scenario: string | null, lower: Lower,
+/** The Transient view's part of the document. `signals`: the strips that are shown; `tolerance`: of the reference, as a
+ * share of its range.
+ * @typedef {{drive: Drive, mode: "command" | "controller", scenario: string | null, signals: string[], tolerance: number,
  *   window: [number, number] | null, phase: Zoom | null, pins: Pin[], differing: boolean,
  *   measurement: {id: string, name: string} | null}} Transient */
 

@@ -6,7 +6,8 @@ import { plotly } from "./library.js";
 
 /** @typedef {import("./theme.js").Palette} Palette */
 /** `marks`: where it has marks, with their texts, instead of round numbers.
- * @typedef {{title: string, range: [number, number], right?: boolean,
+ * `bare`: without its numbers, which stand below the last of several plots.
+ * @typedef {{title: string, range: [number, number], right?: boolean, bare?: boolean,
  *   marks?: {at: number, text: string}[]}} Axis */
 /** A line or a set of points. `axis: 2` draws against the right axis; `column` is its name in the table.
  * @typedef {{id: string, x: (number | null)[], y: (number | null)[], line?: {color: string, width?: number,
@@ -52,6 +53,7 @@ const axisLayout = (axis, p, small) => ({
     : { tickmode: "auto" }),
   tickfont: { color: p.soft },
   automargin: false,
+  showticklabels: !axis.bare,
   showgrid: !axis.right,
 });
 
@@ -77,7 +79,7 @@ export function figure(spec, p, box) {
     width: box.width,
     height: box.height,
     margin: box.small
-      ? { l: 40, r: spec.y2 ? 34 : spec.room ?? 8, t: 6, b: 20 }
+      ? { l: 44, r: spec.y2 ? 34 : spec.room ?? 8, t: 6, b: spec.x.bare ? 5 : 20 }
       : { l: 58, r: spec.y2 ? 54 : spec.room ?? 14, t: 10, b: 44 },
     paper_bgcolor: "rgba(0,0,0,0)",
     plot_bgcolor: "rgba(0,0,0,0)",

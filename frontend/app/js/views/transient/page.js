@@ -6,7 +6,7 @@ import { lostPresets } from "../../server/missing.js";
 import { linearCard } from "./linear/card.js";
 import { stageCard } from "./motion/animation.js";
 import { paired, plotCards } from "./plots/charts.js";
-import { figureCards } from "./figures/figures.js";
+import { figureCards, verdictBar } from "./figures/figures.js";
 import { measuredCard } from "./measured.js";
 import { faultNotice, goToField } from "../../ui/fault.js";
 import { fault, faultField, retry, run, stale, startRuns } from "./model.js";
@@ -31,21 +31,23 @@ export function transientPage() {
   const results = h("div", { class: () => `column results${stale.value ? " stale" : ""}` });
   figureCards().forEach((card) => append(results, card));
   results.append(measuredCard());
+  const plots = plotCards();
   const page = h(
     "div",
     { class: "transient" },
+    h("div", { class: () => `top${stale.value ? " stale" : ""}` }, notice, verdictBar()),
     h("div", { class: "column inputs" }, ...inputCards()),
     h(
       "div",
       { class: () => `column runs${stale.value ? " stale" : ""}${paired.value ? " paired" : ""}` },
-      notice,
+      plots.strips,
+      driveEffects(),
       stageCard(),
-      ...plotCards(),
+      plots.phase,
       compareCard(),
       linearCard(),
     ),
     results,
-    driveEffects(),
   );
   startRuns();
   startPins();

@@ -1,6 +1,7 @@
 // @ts-check
 // The rows of the table of pinned runs: different inputs, and figures with their change from the baseline.
 import { figure } from "../../../facts.js";
+import { computed } from "../../../reactive.js";
 import { units } from "../../../state.js";
 import { effectsById } from "../../../store.js";
 import {
@@ -20,6 +21,7 @@ import { timeWindow } from "../model.js";
 import { signalField } from "../inputs/signals.js";
 import { figureName, figureOf, TIMING } from "../figures/timing.js";
 import { siNumber } from "../../../quantities.js";
+import { pins } from "../pinned-runs.js";
 
 /** @typedef {import("../../../types.js").Run} Run */
 /** @typedef {import("../../../format.js").Quantity} Quantity */
@@ -81,6 +83,29 @@ function inputText(value, scale) {
   if (si === null) return String(value);
   return scale ? `${number(toShown(si, scale), scale.digits)} ${scale.unit}`.trim() : number(si, 6);
 }
+
+const MOST_NAMED = 2;
+
+/** What sets a drive apart from another, in a few words: "Supply 5.5 → 6 bar". @param {Drive} base @param {Drive} drive */
+export function differenceText(base, drive) {
+  const [from, to] = [flat(base), flat(drive)];
+  const paths = [...new Set([...Object.keys(from), ...Object.keys(to)])].filter((path) =>
+    path !== "schema" && path !== "title" && JSON.stringify(from[path] ?? null) !== JSON.stringify(to[path] ?? null)
+  );
+  const named = paths.slice(0, MOST_NAMED).map((path) => {
+    const { label, scale } = inputOf(path, from[path] === undefined ? drive : base);
+    const [before, after] = [inputText(from[path], scale), inputText(to[path], scale)];
+    const unit = scale?.unit && before.endsWith(` ${scale.unit}`) && after.endsWith(` ${scale.unit}`);
+    return `${label} ${unit ? before.slice(0, -scale.unit.length - 1) : before} → ${after}`;
+  });
+  const more = paths.length - named.length;
+  return named.join(", ") + (more > 0 ? `, ${more} more` : "");
+}
+
+/** Names of the pinned runs: the first by its drive, the others by what they change of it. */
+export const pinNames = computed(() =>
+  pins.value.map((pin, i) => i ? differenceText(pins.value[0].drive, pin.drive) || "the same again" : pin.name)
+);
 
 /** Rows of the inputs that are not the same in all runs. @param {Column[]} all @returns {Row[]} */
 export function inputRows(all) {
