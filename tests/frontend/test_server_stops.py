@@ -35,7 +35,7 @@ def tab(page: Page, name: str) -> None:
 
 def task(page: Page) -> None:
     tab(page, "Design")
-    page.get_by_role("radio", name="Task", exact=True).click()
+    page.get_by_role("radio", name="Find a drive", exact=True).click()
 
 
 def muscle(page: Page) -> None:

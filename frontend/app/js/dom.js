@@ -81,11 +81,14 @@ export function each(tag, props, items, keyOf, build) {
     for (const [key, [child, stop]] of shown) {
       if (keys.has(key)) continue;
       const focused = child.contains(document.activeElement);
-      const beside = /** @type {HTMLElement | null} */ (child.nextElementSibling ?? child.previousElementSibling);
+      const beside =
+        /** @type {HTMLElement | null} */ (child.nextElementSibling ?? child.previousElementSibling);
       stop();
       child.remove();
       shown.delete(key);
-      if (focused) /** @type {HTMLElement | null | undefined} */ (beside?.querySelector("button, input"))?.focus();
+      if (focused) {
+        /** @type {HTMLElement | null | undefined} */ (beside?.querySelector("button, input"))?.focus();
+      }
     }
     now.forEach((item, i) => {
       const key = keyOf(item);

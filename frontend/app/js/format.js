@@ -126,12 +126,18 @@ export const GRAVITY = UNITS.typed.kgf.factor;
 /** The value of "20*9.81" or "20 kg * 9.81 m/s^2"; null: it is no calculation, or of another quantity.
  * @param {string} text @param {Scale} s @param {Quantity | null} quantity @param {boolean} [weighs] */
 function calculated(text, s, quantity, weighs) {
-  const measure = measureOf(text.replace(/(\d),(\d)/g, "$1.$2").replaceAll("×", "*").replaceAll("−", "-"), true);
+  const measure = measureOf(
+    text.replace(/(\d),(\d)/g, "$1.$2").replaceAll("×", "*").replaceAll("−", "-"),
+    true,
+  );
   if (!measure || !Number.isFinite(measure.factor)) return null;
   const si = UNITS.quantities[quantity ?? "number"] ?? "1";
   if (fits(measure, si.replace("%", "1"))) {
     const plain = si === "1" && !text.includes("%");
-    return { value: plain ? toSi(measure.factor, s) : measure.factor, kind: plain ? undefined : quantity ?? "number" };
+    return {
+      value: plain ? toSi(measure.factor, s) : measure.factor,
+      kind: plain ? undefined : quantity ?? "number",
+    };
   }
   if (fits(measure, "1") && !text.includes("%")) return { value: toSi(measure.factor, s) };
   return weighs && fits(measure, "kg") ? { value: measure.factor * GRAVITY, kind: "mass" } : null;

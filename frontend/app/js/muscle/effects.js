@@ -120,7 +120,8 @@ function details(c, e) {
 /** An effect that is on: its name and first value open what is set, the cross switches it off.
  * @param {Panel} c @param {Effect} e */
 function chip(c, e) {
-  const wrong = () => c.message(e.id) ?? e.parameters.map((p) => c.message(`${e.id}.${p.name}`)).find(Boolean) ?? null;
+  const wrong = () =>
+    c.message(e.id) ?? e.parameters.map((p) => c.message(`${e.id}.${p.name}`)).find(Boolean) ?? null;
   const first = e.parameters[0];
   const open = h(
     "button",
@@ -137,7 +138,10 @@ function chip(c, e) {
   );
   return h(
     "li",
-    { class: () => `chip effect on${wrong() ? " over" : ""}${c.idle?.(e) ? " idle" : ""}`, "data-effect": e.id },
+    {
+      class: () => `chip effect on${wrong() ? " over" : ""}${c.idle?.(e) ? " idle" : ""}`,
+      "data-effect": e.id,
+    },
     open,
     h(
       "button",
@@ -161,7 +165,13 @@ export function effectsRow(of, c) {
     "section",
     { class: "card effects-row", "aria-label": "Effects" },
     h("h2", null, () => on.value.length ? "The model holds" : "The model is the ideal braid"),
-    each("ul", { class: "chips", "aria-label": "Effects that are on" }, () => on.value, ({ id }) => id, (e) => chip(c, e)),
+    each(
+      "ul",
+      { class: "chips", "aria-label": "Effects that are on" },
+      () => on.value,
+      ({ id }) => id,
+      (e) => chip(c, e),
+    ),
     h(
       "button",
       {

@@ -3,7 +3,7 @@
 import { svg } from "../dom.js";
 
 /** @typedef {{length: number, width: number, below: string, filled?: boolean}} Hanging  in m; `below`: its caption */
-/** @typedef {{load: string, rise: string | null, room?: {length: number, text: string} | null}} Labels */
+/** @typedef {{load: string, rise: string | null}} Labels  `rise`: null without an arrow */
 
 const WIDTH = 172, TOP = 12, BOX = 22, FOOT = 18;
 
@@ -11,20 +11,23 @@ const WIDTH = 172, TOP = 12, BOX = 22, FOOT = 18;
  * @param {number} bulge half width */
 function outline(x, length, bulge) {
   const cap = 5, bend = Math.min(0.2 * length, 26), top = TOP + 6, end = TOP + length;
-  const side = (/** @type {1 | -1} */ s) => [
-    `C${x + s * cap} ${top + bend / 2} ${x + s * bulge} ${top + bend / 2} ${x + s * bulge} ${top + bend}`,
-    `L${x + s * bulge} ${end - bend}`,
-    `C${x + s * bulge} ${end - bend / 2} ${x + s * cap} ${end - bend / 2} ${x + s * cap} ${end}`,
-  ].join("");
+  const side = (/** @type {1 | -1} */ s) =>
+    [
+      `C${x + s * cap} ${top + bend / 2} ${x + s * bulge} ${top + bend / 2} ${x + s * bulge} ${top + bend}`,
+      `L${x + s * bulge} ${end - bend}`,
+      `C${x + s * bulge} ${end - bend / 2} ${x + s * cap} ${end - bend / 2} ${x + s * cap} ${end}`,
+    ].join("");
   const back = `L${x - cap} ${end}C${x - cap} ${end - bend / 2} ${x - bulge} ${end - bend / 2} ${x - bulge} ${
     end - bend
-  }L${x - bulge} ${top + bend}C${x - bulge} ${top + bend / 2} ${x - cap} ${top + bend / 2} ${x - cap} ${top}Z`;
+  }L${x - bulge} ${top + bend}C${x - bulge} ${top + bend / 2} ${x - cap} ${top + bend / 2} ${
+    x - cap
+  } ${top}Z`;
   return `M${x - cap} ${top}L${x + cap} ${top}${side(1)}${back}`;
 }
 
 /** @param {Hanging[]} states the first one without pressure @param {Labels} labels @param {number} height [px] */
-export function hanging(states, { load, rise, room = null }, height = 236) {
-  const longest = Math.max(room?.length ?? 0, ...states.map(({ length }) => length));
+export function hanging(states, { load, rise }, height = 236) {
+  const longest = Math.max(...states.map(({ length }) => length));
   const scale = (height - TOP - 2 * FOOT - BOX) / longest;
   const spread = WIDTH / (states.length + 0.9);
   const at = (/** @type {number} */ i) => spread * (i + 0.72);
@@ -46,7 +49,10 @@ export function hanging(states, { load, rise, room = null }, height = 236) {
   const right = at(states.length - 1) + box / 2 + 7;
   if (rise !== null && states.length > 1 && low > high) {
     nodes.push(
-      svg("path", { class: "level", d: `M${at(0) + 12} ${low}H${right + 4}M${at(1) + 12} ${high}H${right + 4}` }),
+      svg("path", {
+        class: "level",
+        d: `M${at(0) + 12} ${low}H${right + 4}M${at(1) + 12} ${high}H${right + 4}`,
+      }),
       svg("path", { class: "rise", d: `M${right} ${low}V${high + 2}m-4 6l4 -6l4 6` }),
     );
   }

@@ -165,10 +165,11 @@ function overPlot(lines, axes, points, strokes, room) {
     const inner = line.px > 0.5 * width ? line.px - 4 - wide : line.px + 4;
     const end = line.end && [axes.xaxis.c2p(line.end.x), axes.yaxis.c2p(line.end.y)];
     const every = Math.max(1, Math.round((line.along?.length ?? 0) / 12));
-    const further = (line.along ?? []).filter(([x, y], k) => k % every === 0 && x != null && y != null).flatMap(([x, y]) => {
-      const px = axes.xaxis.c2p(x), py = axes.yaxis.c2p(y);
-      return [[px - wide / 2, py - 19], [px - wide / 2, py + 3]];
-    });
+    const further = (line.along ?? []).filter(([x, y], k) => k % every === 0 && x != null && y != null)
+      .flatMap(([x, y]) => {
+        const px = axes.xaxis.c2p(x), py = axes.yaxis.c2p(y);
+        return [[px - wide / 2, py - 19], [px - wide / 2, py + 3]];
+      });
     const places = [
       ...(end ? [[end[0] + 6, end[1] - 0.5 * HIGH_PX], [end[0] - wide, end[1] - 19]] : []),
       [inner, Math.max(0, line.py - 18)],
@@ -179,7 +180,9 @@ function overPlot(lines, axes, points, strokes, room) {
       Math.min(Math.max(0, top), height - HIGH_PX),
     ]);
     const costs = places.map(([left, top], k) => {
-      const over = taken.filter(([x, y, w]) => left < x + w && left + wide > x && Math.abs(top - y) < CLEAR_PX).length;
+      const over = taken.filter(([x, y, w]) =>
+        left < x + w && left + wide > x && Math.abs(top - y) < CLEAR_PX
+      ).length;
       const covered = points.filter(([x, y]) =>
         x > left - 3 && x < left + wide + 3 && y > top - 2 && y < top + HIGH_PX + 2
       ).length;

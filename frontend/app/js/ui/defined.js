@@ -4,4 +4,10 @@ import { h } from "../dom.js";
 
 /** @param {import("../facts.js").DeclaredFigure} figure @param {import("../dom.js").Child} [text] its label */
 export const defined = ({ label, definition }, text = label) =>
-  h("span", { class: "defined", tabindex: 0, role: "note", "aria-label": `${text}: ${definition}`, "data-tip": definition }, text);
+  h("span", {
+    class: "defined",
+    tabindex: 0,
+    role: "note",
+    "aria-label": `${text}: ${definition}`,
+    "data-tip": definition,
+  }, text);

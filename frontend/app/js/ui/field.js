@@ -63,7 +63,8 @@ export function quantityField(o) {
 
   /** @param {string} text @returns {ReturnType<typeof parse>} */
   const read = (text) => {
-    const got = o.reads?.(text) ?? parse(text, o.scale(), o.quantity, shown(), { ...o.counted?.(), weighs: o.weighs });
+    const got = o.reads?.(text) ??
+      parse(text, o.scale(), o.quantity, shown(), { ...o.counted?.(), weighs: o.weighs });
     if ("error" in got || !o.strict || !o.bounds) return got;
     const [low, high] = o.bounds(), slack = 1e-9 * Math.max(Math.abs(low), Math.abs(high));
     if (got.value >= low - slack && got.value <= high + slack) return got;
@@ -154,7 +155,12 @@ export function quantityField(o) {
             onclick: o.reset,
           }, icon("reset"))
           : null,
-      h("span", { class: "entry" }, input, h("span", { class: "unit" }, () => `${o.scale().unit}${o.also?.() ?? ""}`)),
+      h(
+        "span",
+        { class: "entry" },
+        input,
+        h("span", { class: "unit" }, () => `${o.scale().unit}${o.also?.() ?? ""}`),
+      ),
     ),
     o.slider === false ? null : slider(o, rail, step),
     o.hint ? h("p", { class: "hint" }, o.hint) : null,

@@ -4,13 +4,13 @@
 import { h, icon } from "../../dom.js";
 import { figure } from "../../facts.js";
 import { commit, preview, units } from "../../state.js";
-import { patchDesign, design } from "../../muscle/document.js";
+import { design, patchDesign } from "../../muscle/document.js";
 import { hanging } from "../../muscle/hanging.js";
 import { capitalized, parse, scaleOf, withUnit } from "../../format.js";
 import { defined } from "../../ui/defined.js";
 import { quantityField } from "../../ui/field.js";
 import { flag } from "../../ui/flag.js";
-import { curves, fault, geometryValue, loadText, messageFor } from "./model.js";
+import { answeredLoad, curves, fault, geometryValue, messageFor } from "./model.js";
 
 /** @typedef {import("../../types.js").S["Lift"]} Lift */
 /** @typedef {Exclude<keyof Lift, "flags">} LiftFigure */
@@ -68,12 +68,12 @@ function states(lift) {
 /** @param {Lift} lift */
 function sentence(lift) {
   if (lift.length === null) {
-    return h("p", { class: "sentence" }, `${loadText.value} is not held at ${text(lift, "pressure")}.`);
+    return h("p", { class: "sentence" }, `${answeredLoad.value} is not held at ${text(lift, "pressure")}.`);
   }
   return h(
     "p",
     { class: "sentence" },
-    `${loadText.value} ${design.value.load_as === "mass" ? "rests" : "is held"} at `,
+    `${answeredLoad.value} ${design.value.load_as === "mass" ? "rests" : "is held"} at `,
     inLine(lift, "length"),
     lift.lift === null ? "." : [" and is lifted ", inLine(lift, "lift"), "."],
   );
@@ -84,9 +84,17 @@ function picture(lift) {
   const c = curves.value;
   if (!c || lift.length === null) return null;
   const width = c.geometry.braid_diameter, system = units.value;
-  const filled = { length: lift.length, width: c.holds?.diameter ?? width, below: text(lift, "pressure"), filled: true };
+  const filled = {
+    length: lift.length,
+    width: c.holds?.diameter ?? width,
+    below: text(lift, "pressure"),
+    filled: true,
+  };
   const bare = { length: lift.hanging_length ?? lift.length, width, below: withUnit(0, "pressure", system) };
-  return hanging(lift.hanging_length === null ? [filled] : [bare, filled], { load: loadText.value, rise: text(lift, "lift") });
+  return hanging(lift.hanging_length === null ? [filled] : [bare, filled], {
+    load: answeredLoad.value,
+    rise: text(lift, "lift"),
+  });
 }
 
 /** The contraction that is asked for: a share of the rest length, or a stroke from it. */
@@ -106,7 +114,8 @@ const asked = () =>
     get: () => design.value.contraction,
     // A stroke counts from the rest length, as contraction does.
     reads: (typed) => {
-      const got = parse(typed, scaleOf("length", units.peek()), "length"), length = geometryValue("nominal_length");
+      const got = parse(typed, scaleOf("length", units.peek()), "length"),
+        length = geometryValue("nominal_length");
       return "value" in got && got.kind === "length" && length ? { value: got.value / length } : null;
     },
     put: (si, done) => {

@@ -12,8 +12,8 @@ import { geometryValue, loadText, pressureNow } from "./model.js";
 
 /** @typedef {import("../../types.js").S["AskedLine"]} AskedLine */
 
-/** What the fields hold, as a question. */
-const inWords = computed(() => {
+/** What the fields of the muscle hold, as a question. */
+export const muscleWords = computed(() => {
   const length = geometryValue("nominal_length"), system = units.value, { contraction } = design.value;
   return [
     [preset.value?.id, length === null ? null : withUnit(length, "length", system)].filter(Boolean).join(" "),
@@ -26,22 +26,6 @@ const inWords = computed(() => {
 /** The line that was read last, and what the fields held then: as long as they do, the user's words stay. */
 const last = signal(/** @type {{text: string, line: AskedLine, held: string} | null} */ (null));
 const wrong = signal("");
-/** The words in the line: the user's, or those of the fields. */
-const text = computed(() => last.value && last.value.held === inWords.value ? last.value.text : inWords.value);
-const reading = computed(() => last.value && last.value.text === text.value ? last.value.line : null);
-
-/** @param {string} line @param {(line: AskedLine) => unknown} take */
-async function ask(line, take) {
-  wrong.value = "";
-  try {
-    const read = /** @type {AskedLine} */ (await post("/api/asked", { text: line }));
-    take(read);
-    last.value = { text: line, line: read, held: inWords.peek() };
-  } catch (error) {
-    if (!(error instanceof ApiError)) throw error;
-    wrong.value = error.words;
-  }
-}
 
 /** The line with what was read underlined, and what was not. @param {AskedLine} line @param {string} words */
 function marked({ parts }, words) {
@@ -54,16 +38,34 @@ function marked({ parts }, words) {
   return [...texts, words.slice(at)];
 }
 
-function said() {
+/** @param {AskedLine | null} line */
+function said(line) {
   if (wrong.value) return h("p", { class: "error" }, wrong.value);
-  const unread = reading.value?.parts.filter(({ problem }) => problem) ?? [];
+  const unread = line?.parts.filter(({ problem }) => problem) ?? [];
   if (!unread.length) return null;
-  const named = unread.map(({ text: part, problem }) => `“${part}”${problem === "not read" ? "" : ` (${problem})`}`);
+  const named = unread.map(({ text: part, problem }) =>
+    `“${part}”${problem === "not read" ? "" : ` (${problem})`}`
+  );
   return h("p", { class: "error" }, `Not read: ${named.join(", ")}.`);
 }
 
-/** @param {(line: AskedLine) => unknown} take puts what the line states into the document */
-export function askLine(take) {
+/** @param {() => string} held what the fields hold, in words @param {(line: AskedLine) => unknown} take puts what the
+ * line states into the document */
+export function askLine(held, take) {
+  const text = computed(() => last.value && last.value.held === held() ? last.value.text : held());
+  const reading = computed(() => last.value && last.value.text === text.value ? last.value.line : null);
+  /** @param {string} line */
+  async function ask(line) {
+    wrong.value = "";
+    try {
+      const read = /** @type {AskedLine} */ (await post("/api/asked", { text: line }));
+      take(read);
+      last.value = { text: line, line: read, held: held() };
+    } catch (error) {
+      if (!(error instanceof ApiError)) throw error;
+      wrong.value = error.words;
+    }
+  }
   const input = h("input", {
     id: "ask",
     type: "text",
@@ -71,7 +73,7 @@ export function askLine(take) {
     spellcheck: "false",
     maxlength: 300,
     placeholder: "DMSP-20 of 300 mm at 6 bar, 20 kg; which pressure for 15 %?",
-    "aria-label": "Ask: muscle, length, pressure, load",
+    "aria-label": "Ask: muscle, length, pressure, load; or a task",
     "aria-describedby": "ask-said",
     onscroll: () => (marks.scrollLeft = input.scrollLeft),
     oninput: () => (marks.hidden = true),
@@ -80,7 +82,7 @@ export function askLine(take) {
     },
     onkeydown: (/** @type {KeyboardEvent} */ e) => {
       if (e.key === "Escape") input.value = text.peek();
-      if (e.key === "Enter" && input.value.trim()) ask(input.value, take);
+      if (e.key === "Enter" && input.value.trim()) ask(input.value);
     },
   });
   const marks = h("div", { class: "ask-marks", "aria-hidden": "true" }, () => {
@@ -95,7 +97,6 @@ export function askLine(take) {
     "div",
     { class: "ask", role: "search" },
     h("div", { class: "ask-line" }, icon("search"), marks, input, h("kbd", { "aria-hidden": "true" }, "/")),
-    h("div", { id: "ask-said", role: "status" }, said),
+    h("div", { id: "ask-said", role: "status" }, () => said(reading.value)),
   );
 }
-

@@ -16,6 +16,7 @@ import { faultNotice, goToField } from "../../ui/fault.js";
 import { forgetRanges } from "../../plots/axes.js";
 import { ACROSS, atFixedLength, OVER, STIFFNESS } from "../../muscle/curve-axes.js";
 import { cursor, readout } from "./readout.js";
+import { residualWords, showResiduals } from "./residuals.js";
 
 /** @typedef {import("../../muscle/curve-axes.js").View} View */
 
@@ -46,8 +47,18 @@ function chartCard(id, title, label, small) {
 }
 
 const force = chartCard("force", "Force", "Force over contraction, one line per pressure, with the load");
-const stiffness = chartCard("stiffness", "Stiffness", "Stiffness over contraction, valve open and closed", true);
-const volume = chartCard("volume", "Volume and diameter", "Gas volume and braid diameter over contraction", true);
+const stiffness = chartCard(
+  "stiffness",
+  "Stiffness",
+  "Stiffness over contraction, valve open and closed",
+  true,
+);
+const volume = chartCard(
+  "volume",
+  "Volume and diameter",
+  "Gas volume and braid diameter over contraction",
+  true,
+);
 const over = chartCard(
   "over-pressure",
   "Over pressure",
@@ -76,7 +87,9 @@ function frame(card, ...head) {
       }),
     ),
     card.host,
-    card === force ? h("div", { class: "readout", "aria-live": "off" }, () => readout(viewNow())) : null,
+    card === force
+      ? h("div", { class: "readout", "aria-live": "off" }, () => residualWords() ?? readout(viewNow()))
+      : null,
   );
 }
 
@@ -106,7 +119,9 @@ function stateNote() {
 
 /** How many pressures were measured. */
 function pointsText() {
-  const values = new Set(reference.value?.data_columns?.pressure?.values.map((p) => Number(p.toPrecision(2))));
+  const values = new Set(
+    reference.value?.data_columns?.pressure?.values.map((p) => Number(p.toPrecision(2))),
+  );
   return values.size === 1 ? "1 pressure" : `${values.size} pressures`;
 }
 
@@ -215,7 +230,11 @@ export function chartColumn() {
       ),
       () =>
         reference.value
-          ? h("ul", { class: "legend" }, h("li", null, h("i", { class: "ring" }), `measured, ${pointsText()}`))
+          ? h(
+            "ul",
+            { class: "legend" },
+            h("li", null, h("i", { class: "ring" }), `measured, ${pointsText()}`),
+          )
           : null,
     ),
     frame(
@@ -247,6 +266,7 @@ export function chartColumn() {
   );
   linkCursor([force.chart, stiffness.chart, volume.chart], (x) => (cursor.value = x));
   charts.forEach(({ chart }) => writeLabels(chart));
+  showResiduals(force.chart, viewNow);
   const placeLoad = loadHandle();
   effect(() => {
     design.value.load;

@@ -10,5 +10,6 @@ export const designEffects = () =>
     active: activeEffects,
     defaults: () => curves.value?.model.defaults,
     message: messageFor,
-    idle: (e) => isStatic(e) ? null : "It acts while the muscle moves or fills: these static curves do not show it.",
+    idle: (e) =>
+      isStatic(e) ? null : "It acts while the muscle moves or fills: these static curves do not show it.",
   });

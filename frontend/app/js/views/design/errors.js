@@ -40,7 +40,11 @@ function figure(name, c, first, widest) {
     { class: `rmse${first ? " first" : ""}` },
     h("span", null, name),
     h("span", { class: "bar" }, h("i", { style: `width:${(100 * (c.rmse ?? 0)) / widest}%` })),
-    h("b", { class: "num", title: `${brief(c.nrmse_percent ?? NaN)} % of the largest force` }, withUnit(c.rmse, "force", units.value)),
+    h(
+      "b",
+      { class: "num", title: `${brief(c.nrmse_percent ?? NaN)} % of the largest force` },
+      withUnit(c.rmse, "force", units.value),
+    ),
   );
 }
 

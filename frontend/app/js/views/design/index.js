@@ -14,7 +14,7 @@ import { muscleCard, muscleFields } from "./muscle.js";
 import { askedFields, operationCard } from "./operation.js";
 import { tables } from "./tables.js";
 
-export { askLine } from "./ask.js";
+export { askLine, muscleWords } from "./ask.js";
 
 /** Whether a field that is folded away has something to say. */
 const isWrongBelow = computed(() =>
@@ -74,13 +74,20 @@ export function designView() {
       "div",
       { class: () => `column results${isStale()}` },
       answerCard(),
-      h("section", { class: "card sureness", "aria-label": "Limits and error" }, margins, crossedLimits, errorPart(), h(
-        "div",
-        { class: "folds" },
-        pointsUsed,
-        modelRemarks,
-        exampleNote,
-      )),
+      h(
+        "section",
+        { class: "card sureness", "aria-label": "Limits and error" },
+        margins,
+        crossedLimits,
+        ...errorPart(),
+        h(
+          "div",
+          { class: "folds" },
+          pointsUsed,
+          modelRemarks,
+          exampleNote,
+        ),
+      ),
     ),
     chartColumn(),
     designEffects(),

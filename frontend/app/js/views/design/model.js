@@ -35,11 +35,16 @@ export const pressuresShown = computed(() => {
   if (pressures.includes(now)) return pressures;
   return [...pressures.slice(0, MOST_CURVES - 1), now].sort((a, b) => a - b);
 });
-/** The load as it was stated, a mass or a force. @param {import("../../types.js").Doc} d */
-export const loadOf = ({ units: system, design: { load, load_as } }) =>
-  load_as === "mass"
-    ? `${number(toShown(load / GRAVITY, scaleOf("mass", system)), 2)}\u00a0${scaleOf("mass", system).unit}`
+/** A load as it was stated, a mass or a force. @param {number} load @param {Design["load_as"]} as
+ * @param {import("../../format.js").System} system */
+function loadIn(load, as, system) {
+  const mass = scaleOf("mass", system);
+  return as === "mass"
+    ? `${number(toShown(load / GRAVITY, mass), 2)}\u00a0${mass.unit}`
     : withUnit(load, "force", system);
+}
+/** @param {import("../../types.js").Doc} d */
+export const loadOf = ({ units: system, design: { load, load_as } }) => loadIn(load, load_as, system);
 export const loadText = computed(() => (design.value, units.value, loadOf(doc.peek())));
 
 /** @param {Design} d */
@@ -63,6 +68,11 @@ const curvesQuestion = new Question(
 );
 /** The newest curves, and why there are no newer ones: the plots then keep the last ones, dimmed. */
 export const { answer: curves, error: fault } = curvesQuestion;
+/** The load of the answer on screen: what is said beside its figures. */
+export const answeredLoad = computed(() => {
+  const load = curves.value?.over_pressure?.load;
+  return load == null ? "–" : loadIn(load, design.value.load_as, units.value);
+});
 /** Asks once more, after the server was away. */
 export const retry = () => curvesQuestion.again();
 /** The curves on screen are those of the design now. */

@@ -55,7 +55,10 @@ function put(key, si, done) {
   preview(patchDesign({ muscle: { ...m, values: { ...m.values, [key]: si } } }));
   const { label, quantity } = SPECS[key];
   if (done) {
-    commit(label.toLowerCase(), (d) => withUnit(d.design.muscle.values[key] ?? presetValue(key), quantity, units.peek()));
+    commit(
+      label.toLowerCase(),
+      (d) => withUnit(d.design.muscle.values[key] ?? presetValue(key), quantity, units.peek()),
+    );
   }
 }
 

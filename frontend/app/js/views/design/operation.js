@@ -166,7 +166,8 @@ const designField = (key, o) =>
     get: () => /** @type {number | null} */ (design.value[key]),
     put: (si, done) => {
       preview(patchDesign({ [key]: si }));
-      const text = (/** @type {any} */ d) => withUnit(d.design[key], /** @type {Quantity} */ (o.quantity), units.peek());
+      const text = (/** @type {any} */ d) =>
+        withUnit(d.design[key], /** @type {Quantity} */ (o.quantity), units.peek());
       if (done) commit(o.label.toLowerCase(), text);
     },
     message: () => messageFor(key),

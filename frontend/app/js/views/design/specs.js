@@ -18,7 +18,9 @@ export { forceSpec } from "../../muscle/force-plot.js";
  * @param {number} share @param {string} text @returns {import("../../plots/chart.js").Label[]} */
 function nameAt(trace, share, text) {
   if (!trace) return [];
-  const there = trace.x.map((x, i) => /** @type {const} */ ([x, trace.y[i]])).filter(([x, y]) => x != null && y != null);
+  const there = trace.x.map((x, i) => /** @type {const} */ ([x, trace.y[i]])).filter(([x, y]) =>
+    x != null && y != null
+  );
   const [x, y] = there[Math.round(share * (there.length - 1))] ?? [null, null];
   return x == null || y == null ? [] : [{ text, x, y, color: trace.line?.color ?? "", along: there }];
 }
@@ -49,7 +51,11 @@ export function stiffnessSpec(v, p) {
     zones: limitZones(v, x.range, true),
     traces,
     labels: [
-      nameAt(first.at(-1), 0.72, other ? STIFFNESS[/** @type {"tangent"} */ (v.definition)].title : "valve open"),
+      nameAt(
+        first.at(-1),
+        0.72,
+        other ? STIFFNESS[/** @type {"tangent"} */ (v.definition)].title : "valve open",
+      ),
       nameAt(second.at(-1), 0.3, other ? "tangent" : "closed"),
     ].flat(),
     revision: `${v.across}${other ?? ""}${v.system}`,
@@ -73,7 +79,11 @@ export function volumeSpec(v, p) {
       right: true,
     },
     zones: limitZones(v, x.range),
-    labels: nameAt({ id: "", x: column, y: volume, line: { color: p.accent } }, 0.75, `volume, ${scaleOf("volume", system).unit}`).concat(
+    labels: nameAt(
+      { id: "", x: column, y: volume, line: { color: p.accent } },
+      0.75,
+      `volume, ${scaleOf("volume", system).unit}`,
+    ).concat(
       nameAt(
         {
           id: "",

@@ -6,7 +6,7 @@ import { units } from "../../state.js";
 import { aligned, number, readable, scaleOf } from "../../format.js";
 import { shown } from "../../plots/axes.js";
 import { subscript } from "../../ui/field.js";
-import { curves, loadText, pressuresShown } from "./model.js";
+import { answeredLoad, curves, pressuresShown } from "./model.js";
 
 /** @typedef {import("../../format.js").Quantity} Quantity */
 /** @typedef {import("../../types.js").Curves} Curves */
@@ -100,15 +100,23 @@ export const tables = () =>
       "summary",
       null,
       h("b", null, "Tables"),
-      h("span", { class: "muted" }, " by pressure: at the load, loop of filling and venting, characteristics"),
+      h(
+        "span",
+        { class: "muted" },
+        " by pressure: at the load, loop of filling and venting, characteristics",
+      ),
     ),
     h(
       "div",
       { class: "three" },
-      part("At the load", () => `${loadText.value} ${branch()}`, table("Operating points at the load", "operating_point", POINT, operatingPoints, true)),
+      part(
+        "At the load",
+        () => `${answeredLoad.value} ${branch()}`,
+        table("Operating points at the load", "operating_point", POINT, operatingPoints, true),
+      ),
       part(
         "Loop of filling and venting",
-        () => loadText.value,
+        () => answeredLoad.value,
         table("Width of the loop at the load", "loop", LOOP, loopRows, true),
         h(
           "p",
@@ -116,7 +124,11 @@ export const tables = () =>
           "Distance between the branches of a slow loop, in length and in pressure. An ideal muscle has none.",
         ),
       ),
-      part("Characteristics", branch, table("Characteristics per pressure", "characteristics", CHARACTERISTICS, characteristics)),
+      part(
+        "Characteristics",
+        branch,
+        table("Characteristics per pressure", "characteristics", CHARACTERISTICS, characteristics),
+      ),
     ),
   );
 

@@ -81,8 +81,12 @@ export function taskCard() {
     h("label", { class: "unseen", for: "task-title" }, "Name of the task"),
     title,
     h("p", { class: "error", "data-field": "title" }, () => messageFor("title") ?? ""),
-    segments("Arrangement", ARRANGEMENTS, () => arrangement.value, (id) =>
-      editSizing(rearranged(sizing.peek(), id), `arrangement ${id}`)),
+    segments(
+      "Arrangement",
+      ARRANGEMENTS,
+      () => arrangement.value,
+      (id) => editSizing(rearranged(sizing.peek(), id), `arrangement ${id}`),
+    ),
     () => neededFields(),
     proposeButton(),
     h("p", { class: "hint" }, "These are enough for a first answer. All else has a default, below."),

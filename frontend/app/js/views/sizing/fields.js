@@ -19,7 +19,9 @@ export function taskField(path, { needed = false } = {}) {
   const scale = () => quantity ? scaleOf(quantity, units.value) : plainScale(unit);
   /** @param {number | null} si */
   const inWords = (si) =>
-    si === null ? empty ?? "–" : `${number(toShown(si, scale()), scale().digits)}\u00a0${scale().unit}`.trim();
+    si === null
+      ? empty ?? "–"
+      : `${number(toShown(si, scale()), scale().digits)}\u00a0${scale().unit}`.trim();
   return h(
     "div",
     { class: "task-field" },

@@ -90,7 +90,8 @@ const MOST_NAMED = 2;
 export function differenceText(base, drive) {
   const [from, to] = [flat(base), flat(drive)];
   const paths = [...new Set([...Object.keys(from), ...Object.keys(to)])].filter((path) =>
-    path !== "schema" && path !== "title" && JSON.stringify(from[path] ?? null) !== JSON.stringify(to[path] ?? null)
+    path !== "schema" && path !== "title" &&
+    JSON.stringify(from[path] ?? null) !== JSON.stringify(to[path] ?? null)
   );
   const named = paths.slice(0, MOST_NAMED).map((path) => {
     const { label, scale } = inputOf(path, from[path] === undefined ? drive : base);
@@ -104,7 +105,9 @@ export function differenceText(base, drive) {
 
 /** Names of the pinned runs: the first by its drive, the others by what they change of it. */
 export const pinNames = computed(() =>
-  pins.value.map((pin, i) => i ? differenceText(pins.value[0].drive, pin.drive) || "the same again" : pin.name)
+  pins.value.map((pin, i) =>
+    i ? differenceText(pins.value[0].drive, pin.drive) || "the same again" : pin.name
+  )
 );
 
 /** Rows of the inputs that are not the same in all runs. @param {Column[]} all @returns {Row[]} */

@@ -53,14 +53,39 @@ function signalOf(id, key, label, spec, of, title) {
 
 /** @type {Signal[]} */
 const SIGNALS = [
-  signalOf("position", "run.position", "Position over time with reference and stops", positionSpec, (r) => r.position),
+  signalOf(
+    "position",
+    "run.position",
+    "Position over time with reference and stops",
+    positionSpec,
+    (r) => r.position,
+  ),
   signalOf("valve", "run.command", "Command and opening of the valve over time", valveSpec, (r) => r.command),
-  signalOf("pressure", "run.pressure", "Pressure in muscle, tube and supply over time", pressureSpec, (r) => r.pressure),
+  signalOf(
+    "pressure",
+    "run.pressure",
+    "Pressure in muscle, tube and supply over time",
+    pressureSpec,
+    (r) => r.pressure,
+  ),
   signalOf("flow", "run.mass_flow", "Mass flow over time", flowSpec, (r) => r.mass_flow),
   signalOf("force", "run.force", "Force over time", forceSpec, (r) => r.force),
   signalOf("speed", "run.velocity", "Velocity over time", speedSpec, (r) => r.velocity),
-  signalOf("acceleration", "run.acceleration", "Acceleration over time", accelerationSpec, (r) => r.acceleration),
-  signalOf("angle", "joint.angle", "Angle of the pulley over time", angleSpec, (r) => r.joint?.angle, "Joint angle"),
+  signalOf(
+    "acceleration",
+    "run.acceleration",
+    "Acceleration over time",
+    accelerationSpec,
+    (r) => r.acceleration,
+  ),
+  signalOf(
+    "angle",
+    "joint.angle",
+    "Angle of the pulley over time",
+    angleSpec,
+    (r) => r.joint?.angle,
+    "Joint angle",
+  ),
   signalOf(
     "torque",
     "joint.torque",
@@ -69,7 +94,13 @@ const SIGNALS = [
     (r) => r.joint?.torque,
     "Joint torque",
   ),
-  signalOf("stiffness", "joint.stiffness", "Stiffness of the joint over time", stiffnessSpec, (r) => r.joint?.stiffness),
+  signalOf(
+    "stiffness",
+    "joint.stiffness",
+    "Stiffness of the joint over time",
+    stiffnessSpec,
+    (r) => r.joint?.stiffness,
+  ),
 ];
 const strips = SIGNALS.map((one) => ({ ...one, ...plot(one.id, one.title, one.label, true) }));
 /** @typedef {typeof strips[number]} Strip */
@@ -84,7 +115,9 @@ const shownIds = computed(() =>
   strips.filter(({ id, joint }) => transient.value.signals.includes(id) && (paired.value || !joint))
     .map(({ id }) => id).join(" ")
 );
-const shownStrips = computed(() => shownIds.value.split(" ").flatMap((id) => strips.find((one) => one.id === id) ?? []));
+const shownStrips = computed(() =>
+  shownIds.value.split(" ").flatMap((id) => strips.find((one) => one.id === id) ?? [])
+);
 /** All plots of the run with their titles, for the export as one sheet. */
 export const shownCharts = () => [...shownStrips.peek(), phase].map(({ title, chart }) => ({ title, chart }));
 
@@ -105,7 +138,6 @@ export function setWindow(range) {
   lookTransient({ window: whole ? null : [Number(from.toFixed(5)), Number(to.toFixed(5))] });
 }
 
-
 /** What is drawn: from the answers, not from the inputs, so that a plot never mixes both. @returns {View | null} */
 function viewNow() {
   const answer = run.value;
@@ -123,7 +155,9 @@ function viewNow() {
     lever: siNumber(at(drive.peek(), "load.lever_ratio")) ?? 1,
     pinned: pins.value.flatMap((pin, index) => {
       const pinnedRun = runs.get(pinKey(pin.drive));
-      return pinnedRun && "time" in pinnedRun ? [{ name: pinNames.value[index] ?? pin.name, run: pinnedRun, index }] : [];
+      return pinnedRun && "time" in pinnedRun
+        ? [{ name: pinNames.value[index] ?? pin.name, run: pinnedRun, index }]
+        : [];
     }),
     measured: measured.value,
     switches: switchings(command, answer.duration),
@@ -236,7 +270,12 @@ function toleranceNote() {
       }),
       `% = ${withUnit(judged.most, "length", units.value)}`,
     ),
-    h("span", { class: "muted" }, h("i", { class: "inside" }), `inside ${Math.round(100 * judged.share)} % of the time`),
+    h(
+      "span",
+      { class: "muted" },
+      h("i", { class: "inside" }),
+      `inside ${Math.round(100 * judged.share)} % of the time`,
+    ),
   ];
 }
 
@@ -248,14 +287,23 @@ function cursorHeads() {
   return [
     h("span", null, h("small", null, "A"), text(from)),
     h("span", null, h("small", null, "B"), to === null ? "–" : text(to)),
-    h("span", { title: gap ? `1 ÷ (B − A) = ${brief(1 / Math.abs(gap))} Hz` : null }, h("small", null, "B − A"), gap === null ? "–" : text(gap)),
+    h(
+      "span",
+      { title: gap ? `1 ÷ (B − A) = ${brief(1 / Math.abs(gap))} Hz` : null },
+      h("small", null, "B − A"),
+      gap === null ? "–" : text(gap),
+    ),
   ];
 }
 
 const stripsCard = () =>
   h(
     "section",
-    { class: "card strips-card", "aria-label": "Signals over time", style: () => `--strips: ${shownStrips.value.length}` },
+    {
+      class: "card strips-card",
+      "aria-label": "Signals over time",
+      style: () => `--strips: ${shownStrips.value.length}`,
+    },
     h(
       "div",
       { class: "strips-head" },

@@ -168,7 +168,9 @@ export function toleranceOf(run, tolerance) {
   if (!reference) return null;
   const [low, high] = extent([reference]), most = tolerance * (high - low);
   if (!(most > 0)) return null;
-  const inside = position.map((x, i) => x != null && reference[i] != null && Math.abs(x - Number(reference[i])) <= most);
+  const inside = position.map((x, i) =>
+    x != null && reference[i] != null && Math.abs(x - Number(reference[i])) <= most
+  );
   const lasts = inside.reduce((sum, is, i) => sum + (is && i ? time[i] - time[i - 1] : 0), 0);
   return { most, inside, share: lasts / (time[time.length - 1] - time[0] || 1) };
 }
@@ -288,7 +290,14 @@ export function forceSpec(v, p) {
   }
   if (run.load_force.some((x) => x !== 0)) {
     const color = run.joint ? p.soft : p.second;
-    lines.push({ id: "external", name: "external force", values: run.load_force, color, dash: "dash", width: 1.5 });
+    lines.push({
+      id: "external",
+      name: "external force",
+      values: run.load_force,
+      color,
+      dash: "dash",
+      width: 1.5,
+    });
   }
   if (run.joint) lines.push(second(p, run.joint.counter_force));
   lines.push({ id: "force", name, values: run.force, color: p.accent });
@@ -308,7 +317,14 @@ export function valveSpec(v, p) {
   /** @type {Line[]} */
   const lines = [
     ...pinLines(v, p, (r) => r.command),
-    { id: "opening", name: "opening of the valve", values: run.opening, color: p.second, dash: "dash", width: 1.5 },
+    {
+      id: "opening",
+      name: "opening of the valve",
+      values: run.opening,
+      color: p.second,
+      dash: "dash",
+      width: 1.5,
+    },
     ...(run.joint ? [{ ...second(p, run.joint.counter_command), name: "command 2" }] : []),
     { id: "command", name: "command", values: run.command, color: p.accent },
   ];
