@@ -104,7 +104,7 @@ def add_effect(page: Page, name: str) -> Locator:
     page.keyboard.type(f"add effect {name}")
     title = page.locator("#commands [role=option] span").first.inner_text()
     page.keyboard.press("Enter")
-    return page.locator(f"[data-effect]:has(button[aria-label='{title}: values'])")
+    return page.locator("[data-effect]:visible", has_text=title.partition(" (")[0])
 
 
 def open_catalogue(page: Page) -> None:

@@ -122,19 +122,19 @@ function details(c, e) {
 function chip(c, e) {
   const wrong = () =>
     c.message(e.id) ?? e.parameters.map((p) => c.message(`${e.id}.${p.name}`)).find(Boolean) ?? null;
-  const first = e.parameters[0];
+  const first = e.parameters[0], name = e.title.replace(/ \(.*\)$/, "");
+  const value = () => first ? ` ${valueText(first, valueOf(c, e, first))}` : "";
   const open = h(
     "button",
     {
       type: "button",
       class: "link",
       title: () => wrong() ?? `${e.cause} ${c.idle?.(e) ?? ""}`.trim(),
-      "aria-label": () => `${e.title}: values`,
       "aria-expanded": "false",
       onclick: () => openPopover(open, e.title, () => details(c, e), { kind: "effect-values" }),
     },
-    h("span", null, e.title.replace(/ \(.*\)$/, "")),
-    first ? h("small", null, () => ` ${valueText(first, valueOf(c, e, first))}`) : null,
+    h("span", null, name),
+    h("small", null, value),
   );
   return h(
     "li",

@@ -228,8 +228,9 @@ function strip(one) {
       "label" in item && item.label === "Reset zoom" ? { ...item, label: "Show the whole run" } : item
     );
   return h(
-    "section",
+    "div",
     {
+      role: "group",
       class: () => `time-strip ${one.host.id}${shownStrips.value.at(-1) === one ? " last" : ""}`,
       "aria-label": one.title,
       hidden: () => !shownStrips.value.includes(one),
