@@ -46,7 +46,7 @@ def muscle(page: Page) -> None:
 # How to get to a view, what to change there the nth time, and what is dimmed until the answer comes.
 View = tuple[Callable[[Page], None], Callable[[Page, int], Any], str]
 VIEWS: dict[str, View] = {
-    "Design": (muscle, lambda page, n: enter(page, "Braid angle", str(23 + n)), "#force"),
+    "Design": (muscle, lambda page, n: enter(page, "Rest length", str(280 + n)), "#force"),
     "Transient": (
         lambda page: tab(page, "Transient"),
         lambda page, n: enter(page, "Mass", str(15 + n)),

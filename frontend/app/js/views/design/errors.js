@@ -48,19 +48,9 @@ function figure(name, c, first, widest) {
   );
 }
 
-/** What the error is worth at the load, through the stiffness. @param {Comparison} c */
-function here({ rmse, nrmse_percent }) {
-  const stiffness = curves.value?.lift?.stiffness;
-  return h(
-    "p",
-    { class: "muted" },
-    `${brief(nrmse_percent ?? NaN)} % of the largest force`,
-    rmse !== null && stiffness
-      ? ["; at this load about ", h("b", null, withUnit(rmse / stiffness, "length", units.value))]
-      : null,
-    ".",
-  );
-}
+/** The error beside the largest force. @param {Comparison} c */
+const relative = ({ nrmse_percent }) =>
+  h("p", { class: "muted" }, `${brief(nrmse_percent ?? NaN)} % of the largest force`);
 
 function source() {
   const r = reference.value;
@@ -79,7 +69,7 @@ function body() {
   return [
     figure("This model", now, true, widest),
     figure("Ideal braid", ideal, false, widest),
-    here(now),
+    relative(now),
   ];
 }
 

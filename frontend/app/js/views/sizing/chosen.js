@@ -97,8 +97,8 @@ function mounting(p) {
   const { load = {} } = answeredTask();
   if (load.pair || (load.lever_ratio ?? 1) !== 1) return null;
   const inclination = load.inclination ?? fieldOf("load.inclination").default ?? Math.PI / 2;
-  const standing = Math.abs(Math.sin(inclination)),
-    word = standing > 0.99 ? "hanging" : standing < 0.01 ? "lying" : "inclined";
+  const near = (/** @type {number} */ angle) => Math.abs(inclination - angle) < 0.01;
+  const word = near(Math.PI / 2) ? "hanging" : near(0) ? "lying" : "inclined";
   if (word === "inclined") return null; // no drawing is better than one of another mounting
   const text = (/** @type {number} */ si) => asText(si, "length");
   const end = p.nominal_length * (1 - p.contraction);

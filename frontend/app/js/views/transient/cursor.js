@@ -30,7 +30,7 @@ export const secondRow = computed(() =>
 export const row = computed(() => run.value ? rowAt(run.value.time, cursor.value) : 0);
 
 /** @param {number} t [s] */
-export const moveCursor = (t) => (wanted.value = t);
+const moveCursor = (t) => (wanted.value = t);
 
 /** @param {number} rows */
 function stepCursor(rows) {
@@ -43,7 +43,7 @@ const KEYS =
   /** @type {Record<string, number>} */ ({ ArrowLeft: -1, ArrowRight: 1, PageUp: 20, PageDown: -20 });
 
 /** @param {KeyboardEvent} event */
-export function cursorKeys(event) {
+function cursorKeys(event) {
   if (event.ctrlKey || event.metaKey || event.altKey) return;
   if (event.key === "Home") moveCursor(span.peek()[0]);
   else if (event.key === "End") moveCursor(span.peek()[1]);

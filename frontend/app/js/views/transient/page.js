@@ -4,7 +4,6 @@ import { append, h } from "../../dom.js";
 import { apart, computed, effect } from "../../reactive.js";
 import { lostPresets } from "../../server/missing.js";
 import { linearCard } from "./linear/card.js";
-import { stageCard } from "./motion/animation.js";
 import { paired, plotCards } from "./plots/charts.js";
 import { figureCards, verdictBar } from "./figures/figures.js";
 import { measuredCard } from "./measured.js";
@@ -42,7 +41,6 @@ export function transientPage() {
       { class: () => `column runs${stale.value ? " stale" : ""}${paired.value ? " paired" : ""}` },
       plots.strips,
       driveEffects(),
-      stageCard(),
       plots.phase,
       compareCard(),
       linearCard(),

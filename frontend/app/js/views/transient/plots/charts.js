@@ -17,7 +17,7 @@ import { measured } from "../measured.js";
 import { drive, duration, lookTransient, mode, run, timeWindow, transient } from "../model.js";
 import { drawPhase, phase, phaseItems, phaseLegend, phaseNote, phasePoint } from "./phase-card.js";
 import { pinKey, pinRuns, pins } from "../pinned-runs.js";
-import { pinNames } from "../pinned/rows.js";
+import { pinNames } from "../run-names.js";
 import { plot } from "./plot.js";
 import { switchings } from "../inputs/signals.js";
 import { siNumber } from "../../../quantities.js";
@@ -129,7 +129,7 @@ function toggle(id) {
 }
 
 /** @param {[number, number] | null} range */
-export function setWindow(range) {
+function setWindow(range) {
   const end = run.peek()?.duration ?? duration.peek();
   if (!range) return lookTransient({ window: null });
   const from = Math.max(0, Math.min(...range)), to = Math.min(end, Math.max(...range));
@@ -248,7 +248,7 @@ function strip(one) {
   );
 }
 
-/** Whether and for how long the position is within the tolerance. */
+/** The tolerance that the strip of the position is marked by. */
 function toleranceNote() {
   const r = run.value, judged = r && toleranceOf(r, tolerance.value);
   if (!judged) return null;
@@ -275,7 +275,9 @@ function toleranceNote() {
       "span",
       { class: "muted" },
       h("i", { class: "inside" }),
-      `inside ${Math.round(100 * judged.share)} % of the time`,
+      "inside ",
+      h("i", { class: "outside" }),
+      "outside",
     ),
   ];
 }
@@ -295,6 +297,43 @@ function cursorHeads() {
       gap === null ? "–" : text(gap),
     ),
   ];
+}
+
+/** The time window as numbers, which can also be dragged in the plots. */
+function windowFields() {
+  /** @param {0 | 1} side @param {string} label */
+  const entry = (side, label) =>
+    h("input", {
+      type: "text",
+      inputmode: "decimal",
+      "aria-label": label,
+      value: () => brief(span.value[side]),
+      onchange: (/** @type {Event} */ e) => {
+        const input = /** @type {HTMLInputElement} */ (e.target);
+        const typed = Number(input.value.replace(",", ".").replace(/\s*s$/, ""));
+        /** @type {[number, number]} */
+        const next = [...span.peek()];
+        next[side] = typed;
+        if (Number.isFinite(typed) && next[0] < next[1]) setWindow(next);
+        input.value = brief(span.peek()[side]);
+      },
+    });
+  return h(
+    "span",
+    { class: "window" },
+    h("small", null, "Window"),
+    entry(0, "Window from, in seconds"),
+    h("small", null, "to"),
+    entry(1, "Window to, in seconds"),
+    h("small", null, "s"),
+    h("button", {
+      type: "button",
+      class: "link",
+      disabled: () => timeWindow.value === null,
+      title: "Also: double click in a plot",
+      onclick: () => setWindow(null),
+    }, "All"),
+  );
 }
 
 const stripsCard = () =>
@@ -329,8 +368,24 @@ const stripsCard = () =>
       }, () => second.value === null ? "Put B" : "Remove B"),
       h("div", { class: "at-cursors heads num", "aria-live": "off" }, cursorHeads),
     ),
-    h("div", { class: "tolerances" }, toleranceNote),
+    h("div", { class: "tolerances" }, windowFields(), toleranceNote),
     ...strips.map(strip),
+    h("div", { class: "values", "aria-live": "off" }, readout),
+    h(
+      "ul",
+      { class: "legend key" },
+      h("li", null, h("i", { class: "hatch" }), "on a stop"),
+      h("li", null, h("i", { class: "slack" }), () => paired.value ? "muscle 1 slack" : "muscle slack"),
+      h(
+        "li",
+        { hidden: () => !run.value?.stuck.includes(true) },
+        h("i", { class: "stuck" }),
+        "stuck by friction",
+      ),
+      h("li", null, h("i", { class: "fill" }), "choked filling"),
+      h("li", null, h("i", { class: "exhaust" }), "choked venting"),
+      h("li", null, h("i", { class: "instant" }), "switching"),
+    ),
   );
 
 const phaseFrame = () =>
@@ -343,7 +398,7 @@ const phaseFrame = () =>
   );
 
 /** The values under the cursor, in one line. */
-export function readout() {
+function readout() {
   const answer = run.value, i = row.value, system = units.value;
   if (!answer) return h("span", { class: "muted" }, "…");
   /** @param {string} name @param {(number | null)[]} values @param {import("../../../format.js").Quantity} q */

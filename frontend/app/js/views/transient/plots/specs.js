@@ -171,8 +171,7 @@ export function toleranceOf(run, tolerance) {
   const inside = position.map((x, i) =>
     x != null && reference[i] != null && Math.abs(x - Number(reference[i])) <= most
   );
-  const lasts = inside.reduce((sum, is, i) => sum + (is && i ? time[i] - time[i - 1] : 0), 0);
-  return { most, inside, share: lasts / (time[time.length - 1] - time[0] || 1) };
+  return { most, inside };
 }
 
 /** The second muscle of an antagonist pair. @param {Palette} p @param {(number | null)[]} values @returns {Line} */
