@@ -37,7 +37,7 @@ def test_a_question_fills_the_fields() -> None:
         ("dmsp 20 300mm 20*9.81 N", {"muscle": "DMSP-20", "nominal_length": 0.3, "load": 196.2}),
         ("0,2 kN 600 kPa", {"load": 200.0, "pressure": 6e5}),
         ("DMSP-20-310N-RM-CM", {"muscle": "DMSP-20", "nominal_length": 0.31}),
-        ("lift 200 N by 60 mm in 0.5 s, 600 mm of room", {"load": 200.0, "stroke": 0.06, "time": 0.5, "room": 0.6}),
+        ("lift 2 N by 6 mm in 1 s, 60 mm of room", {"load": 2.0, "stroke": 0.006, "time": 1.0, "room": 0.06}),
     ],
 )  # fmt: skip
 def test_units_say_what_a_quantity_is(text: str, want: dict[str, object]) -> None:

@@ -16,11 +16,11 @@ from playwright.sync_api import Download, Page, expect
 from tests.frontend.guard import PageGuard
 from tests.frontend.views import (
     REFUSED,
+    add_effect,
     drawings,
     enter,
     field,
     link_of,
-    add_effect,
     open_design,
     open_inputs,
     redrawn,
@@ -66,7 +66,7 @@ def test_the_whole_flow(page: Page, tmp_path: Path) -> None:
     expect(page.locator("#rmse")).to_contain_text("% of the largest")
     expect(page.get_by_label("Points to compare with")).to_have_value("martens-dmsp-10-250")
 
-    # An order code in the line sets preset and length; one that is not understood is named and changes nothing.
+    # An order code sets preset and length; one that is not understood is named and changes nothing.
     line = page.get_by_label("Ask: muscle")
     line.fill("MAS-10-N-10O-AA-MCFK")
     line.press("Enter")
@@ -290,7 +290,9 @@ def test_an_effect_is_found_by_its_cause_added_set_and_removed(page: Page) -> No
         expect(note).to_contain_text(heading)
     page.keyboard.press("Escape")
     # The focus stays in the row when what had it goes.
-    redrawn(page, lambda: page.get_by_role("button", name=re.compile(f"Remove {re.escape(title)}")).press("Enter"))
+    redrawn(
+        page, lambda: page.get_by_role("button", name=re.compile(f"Remove {re.escape(title)}")).press("Enter")
+    )
     expect(chip).to_have_count(0)
     assert page.evaluate("document.activeElement.closest('.effects-row') !== null")
 
@@ -306,7 +308,9 @@ def test_the_load_follows_line_and_field(page: Page) -> None:
     page.mouse.up()
     moved = float(field(page, "Load").input_value())
     assert moved > 600
-    assert re.match(r"Undo: load 500 → \d+\sN", str(page.locator(".history button").first.get_attribute("title")))
+    assert re.match(
+        r"Undo: load 500 → \d+\sN", str(page.locator(".history button").first.get_attribute("title"))
+    )
     enter(page, "Load", "100 lbf")
     expect(line).to_have_attribute("aria-valuetext", "Load 445 N")
     # A mass stays a mass and says its weight; an expression is worked out.
@@ -349,14 +353,17 @@ def test_a_typed_question_is_answered_in_one_action(page: Page) -> None:
     lift = run(
         page,
         """
-        const answer = await fetch("/api/curves", { method: "POST", headers: { "content-type": "application/json" },
+        const answer = await fetch("/api/curves", { method: "POST",
+          headers: { "content-type": "application/json" },
           body: JSON.stringify({ muscle: { preset: "DMSP-20", nominal_length: 0.3 }, load: 20 * 9.80665,
             at_pressure: 5e5, at_contraction: 0.12, points: 2 }) });
         return (await answer.json()).lift;
         """,
     )
     expect(page.locator(".sentence")).to_contain_text(f"{lift['lift'] * 1e3:.1f}")
-    expect(page.locator(".large b").nth(2)).to_contain_text(f"{lift['pressure_filling'] / 1e5:.2f}".rstrip("0"))
+    expect(page.locator(".large b").nth(2)).to_contain_text(
+        f"{lift['pressure_filling'] / 1e5:.2f}".rstrip("0")
+    )
     expect(field(page, "Pressure")).to_have_value("5")
     enter(page, "for", "45 mm")  # a stroke from the rest length
     expect(field(page, "for")).to_have_value("15")

@@ -36,7 +36,9 @@ def blocked_force(page: Page) -> int:
     return int(next(figure for figure in figures if len(figure) > 2 and "." not in figure))
 
 
-@pytest.mark.examination("tests/frontend/test_design.py::test_effects_are_one_sentence_and_the_others_a_search_away")
+@pytest.mark.examination(
+    "tests/frontend/test_design.py::test_effects_are_one_sentence_and_the_others_a_search_away"
+)
 def test_the_example_of_the_readme_appears_and_acts(page: Page, server: RunningServer) -> None:
     page.goto(f"{server.url}/")  # in full: the base URL is that of the other tests' server
     marked(page, "[data-drawn]")

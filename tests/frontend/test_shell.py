@@ -69,7 +69,11 @@ def test_the_palette_and_the_tabs_of_a_narrow_window(page: Page) -> None:
     page.keyboard.press("Control+k")
     palette = page.get_by_role("dialog", name="Go to")
     assert violations(page, "dialog[open]") == []
-    for typed, found in (("transi", "Transient"), ("coulomb friction", "Coulomb friction"), ("dmsp-40", "Festo DMSP-40")):
+    for typed, found in (
+        ("transi", "Transient"),
+        ("coulomb friction", "Coulomb friction"),
+        ("dmsp-40", "Festo DMSP-40"),
+    ):
         palette.get_by_role("combobox").fill(typed)
         expect(palette.get_by_role("option").first).to_contain_text(found)
     palette.get_by_role("combobox").fill("no such thing")

@@ -136,7 +136,7 @@ def test_from_the_empty_page_to_the_printed_report(page: Page, tmp_path: Path) -
 
 
 def test_a_typed_task_is_searched_sorted_and_two_drives_are_compared(page: Page) -> None:
-    """One line in; the list sorts by any column; two ticks show what differs; a load that hangs is drawn so."""
+    """The list sorts by any column; two ticks show what differs; a load that hangs is drawn so."""
     page.goto("/")
     marked(page, "[data-drawn]")
     page.keyboard.press("/")
@@ -261,7 +261,6 @@ def test_trade_offs(page: Page) -> None:
     expect(marks).to_have_count(len(proposals))
     front = [p["front"] for p in proposals]  # said by the list and by the plot, of the same drives
     assert [row.locator(".front-mark").count() == 0 for row in rows(page).all()] == front
-    words = page.get_by_role("region", name="Proposals", exact=True)
     assert [bool(re.search(r"\bfront\b", mark.get_attribute("class") or "")) for mark in marks.all()] == front
     page.get_by_label("Aim on the vertical axis").select_option("stiffness")
     page.get_by_label("Aim on the horizontal axis").select_option("length")

@@ -506,7 +506,7 @@ def test_the_cursors_move_over_all_strips(page: Page) -> None:
     page.keyboard.press("Home")
     expect(clock).to_have_text(re.compile(r"0.s$"))
     assert runs(page) == count
-    # A click puts the second cursor, which stays; the values of both and their difference stand beside each strip.
+    # A click puts the second cursor, which stays; both values and their difference stand beside each strip.
     page.locator("#run-valve").scroll_into_view_if_needed()
     box = page.locator("#run-valve").bounding_box()
     assert box

@@ -411,7 +411,12 @@ def test_a_load_at_one_pressure_agrees_with_the_inverse_questions(shared_client:
 
 def test_a_load_that_is_not_held_says_why(shared_client: TestClient) -> None:
     answer = curves(
-        shared_client, {"preset": "DMSP-20"}, effects={}, load="5 kN", at_pressure="1 bar", pressures=["1 bar"]
+        shared_client,
+        {"preset": "DMSP-20"},
+        effects={},
+        load="5 kN",
+        at_pressure="1 bar",
+        pressures=["1 bar"],
     )
     assert answer["lift"]["lift"] is None
     assert any("braid lock" in flag["message"] for flag in answer["lift"]["flags"])

@@ -1,8 +1,8 @@
 """A question typed in one line, read into the fields that it fills.
 
-"How far does a DMSP-20 of 300 mm at 6 bar lift 20 kg, which pressure for 15 %" states a muscle, its length, a
-pressure, a load and a contraction. What a quantity is follows from its unit; which of several lengths it is from
-the word before it. Nothing is guessed: what is not read is named.
+"How far does a DMSP-20 of 300 mm at 6 bar lift 20 kg, which pressure for 15 %" states a muscle, its length,
+a pressure, a load and a contraction. What a quantity is follows from its unit; which of several lengths it is
+from the word before it. Nothing is guessed: what is not read is named.
 """
 
 from __future__ import annotations
@@ -21,16 +21,20 @@ _NUMBER = r"[+-]?(?:\d+(?:[.,]\d+)?|\.\d+)(?:[eE][+-]?\d{1,3})?"
 _QUANTITY = re.compile(
     rf"(?P<numbers>{_NUMBER}(?:\s*[*×·]\s*{_NUMBER})*)\s*(?P<unit>%|(?:[A-Za-zµμ°]+(?:/[A-Za-z]+)?[²³23]?))?"
 )
-_WORD = re.compile(r"[^\W_][\w'’./-]*")  # noqa: RUF001
+_WORD = re.compile(r"[^\W_][\w'’./-]*")
 # Words that state nothing beyond what the quantities beside them do.
-_FILLING = frozenset(
-    "a an and at by can carry carries contract contraction contracts do does far festo find for force from give "
-    "hang hanging hangs has high hold holds how i in is it its kept length lift lifted lifting lifts load long "
-    "mass me move moves much muscle need needed needs of on or pressure pull pulls raise raises rest stiff "
-    "room space stiffness stroke supply takes that the to travel under up vertical vertically weight what where "
-    "which will with within".split()
+_FILLING = frozenset((
+    "a", "an", "and", "at", "by", "can", "carry", "carries", "contract", "contraction", "contracts", "do",
+    "does", "far", "festo", "find", "for", "force", "from", "give", "hang", "hanging", "hangs", "has",
+    "high", "hold", "holds", "how", "i", "in", "is", "it", "its", "kept", "length", "lift", "lifted",
+    "lifting", "lifts", "load", "long", "mass", "me", "move", "moves", "much", "muscle", "need", "needed",
+    "needs", "of", "on", "or", "pressure", "pull", "pulls", "raise", "raises", "rest", "stiff", "room",
+    "space", "stiffness", "stroke", "supply", "takes", "that", "the", "to", "travel", "under", "up",
+    "vertical", "vertically", "weight", "what", "where", "which", "will", "with", "within",
+))  # fmt: skip
+_STROKE_BEFORE = re.compile(
+    r"(?:\b(?:by|stroke|travel|lifts?|move|raise)(?:\s+(?:of|it))*)\s*$", re.IGNORECASE
 )
-_STROKE_BEFORE = re.compile(r"(?:\b(?:by|stroke|travel|lifts?|move|raise)(?:\s+(?:of|it))*)\s*$", re.IGNORECASE)
 _ROOM_BESIDE = re.compile(r"(?:\b(?:room|space)(?:\s+of)?)\s*$", re.IGNORECASE)
 _ROOM_AFTER = re.compile(r"\s*(?:of\s+)?(?:room|space)\b", re.IGNORECASE)
 

@@ -31,7 +31,7 @@ asked_router = APIRouter(prefix="/api/asked", tags=["curves"], route_class=Stric
     openapi_extra=request_examples.worked("asked"),
 )
 def read_question(body: AskedRequest, studio: StudioDep) -> JsonAnswer:
-    """What a question typed in one line states: muscle, length, pressure, load, contraction; and what is not read."""
+    """What a question typed in one line states, and what of it is not read."""
     return JsonAnswer(read_asked(body.text, [preset.id for preset in studio.library.list("muscles")]))
 
 

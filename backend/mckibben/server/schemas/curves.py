@@ -53,7 +53,8 @@ class CurvesOptions(Strict):
         False, description="Also the stiffness that the force implies, and the secant stiffness."
     )
     at_pressure: Pressure | None = Field(
-        None, description="Gauge pressure at which the load is asked about: how far it is lifted, how stiffly."
+        None,
+        description="Gauge pressure at which the load is asked about: how far it is lifted, how stiffly.",
     )
     at_contraction: Contraction | None = Field(
         None, description="The contraction whose pressure is asked for, under the load."

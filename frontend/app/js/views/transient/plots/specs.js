@@ -164,7 +164,7 @@ export function positionSpec(v, p) {
 /** Where the position is within a share of the range of its reference; null without a reference that moves.
  * @param {Run} run @param {number} tolerance */
 export function toleranceOf(run, tolerance) {
-  const { reference, position, time } = run;
+  const { reference, position } = run;
   if (!reference) return null;
   const [low, high] = extent([reference]), most = tolerance * (high - low);
   if (!(most > 0)) return null;
