@@ -103,11 +103,15 @@ export function dragLine(chart, o) {
 const CLEAR_PX = 15, NAME_PX = 13;
 /** Letters of a name, and its height. */
 const LETTER_PX = 6.6, HIGH_PX = 16;
+/** What it costs to lie over another name, beside 1 for each point that is covered. */
+const OVER_COST = 100;
+/** Number of lines from which on a name that costs so much is left out. */
+const CROWD = 12, MOST_COST = 3;
 /** Distance of the places at which a line is looked at [px]. */
 const STROKE_PX = 4;
 
 /** Writes the name of each line beside it, and the name of each shaded zone into it. A name that would lie over
- * another one, along a line or over a crowd of points moves along its line; none is left out.
+ * another one, along a line or over a crowd of points moves along its line.
  * @param {Chart} chart */
 export function writeLabels(chart) {
   const box = h("div", { class: "labels" });
@@ -117,6 +121,7 @@ export function writeLabels(chart) {
     if (!axes || !chart.spec) return;
     const lines = [...chart.spec.labels ?? []].map((label) => ({
       ...label,
+      along: label.along ?? alongOf(chart.spec, label),
       px: axes.xaxis.c2p(label.x),
       py: axes.yaxis.c2p(label.y),
     })).filter(({ px, py }) => px >= 0 && px <= axes.xaxis._length && py >= 0 && py <= axes.yaxis._length)
@@ -129,6 +134,13 @@ export function writeLabels(chart) {
     for (const zone of chart.spec.zones) nodes.push(...zoneLabel(zone, axes, chart.spec.zones, points));
     box.replaceChildren(...nodes);
   });
+}
+
+/** The points of the line that a name belongs to. @param {import("./chart.js").Spec | null} spec
+ * @param {import("./chart.js").Label} label */
+function alongOf(spec, { x, y }) {
+  const line = spec?.traces.find((t) => !t.marker && t.x.some((at, k) => at === x && t.y[k] === y));
+  return line?.x.map((at, k) => /** @type {const} */ ([at, line.y[k]]));
 }
 
 /** @typedef {import("./chart.js").Label & {px: number, py: number}} PlacedLabel */
@@ -150,8 +162,7 @@ function besideAxis(lines, axes) {
   return lines.map((line, i) => place(nameOf(line), axes, axes.xaxis._length + 4, tops[i] - 8));
 }
 
-/** Names over the plot, where they cover least: behind the end of a line, above or below it, or further along it. None
- * is left out.
+/** Names over the plot, where they cover least: behind the end of a line, above or below it, or further along it.
  * @param {PlacedLabel[]} lines from the top @param {any} axes @param {[number, number][]} points
  * @param {[number, number][]} strokes places on the lines @param {number} room right of the axes [px] */
 function overPlot(lines, axes, points, strokes, room) {
@@ -190,9 +201,13 @@ function overPlot(lines, axes, points, strokes, room) {
         x > left && x < left + wide && y > top + 3 && y < top + HIGH_PX - 3
       ).length * STROKE_PX / wide;
       const moved = k < (end ? 4 : 2) ? 0.4 * k : 1.5; // it stays at the end of its line unless that costs more
-      return 100 * over + covered + 2 * struck + moved;
+      return OVER_COST * over + covered + 2 * struck + moved;
     });
-    const [left, top] = places[costs.indexOf(Math.min(...costs))];
+    const least = Math.min(...costs);
+    // Two names in one place are worse than one, and in a crowd of lines so is a name that they run through.
+    const most = lines.length > CROWD ? MOST_COST : OVER_COST;
+    if (least >= most && line !== lines[0] && line !== lines.at(-1)) continue;
+    const [left, top] = places[costs.indexOf(least)];
     taken.push([left, top, wide]);
     nodes.push(place(nameOf(line), axes, left, top));
   }
