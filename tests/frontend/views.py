@@ -101,6 +101,7 @@ def open_inputs(page: Page, link: str = "") -> None:
 def add_effect(page: Page, name: str) -> Locator:
     """Add the first effect that is found by a name; its chip."""
     page.keyboard.press("Control+k")
+    expect(page.get_by_role("dialog").get_by_role("combobox")).to_be_focused()
     page.keyboard.type(f"add effect {name}")
     title = page.locator("#commands [role=option] span").first.inner_text()
     page.keyboard.press("Enter")
