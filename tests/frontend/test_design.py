@@ -11,16 +11,18 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Download, Page, expect
+from playwright.sync_api import Download, Page, Route, expect
 
 from tests.frontend.guard import PageGuard
 from tests.frontend.views import (
     REFUSED,
+    SIZES,
     add_effect,
     drawings,
     enter,
     field,
     link_of,
+    marked,
     open_design,
     open_inputs,
     redrawn,
@@ -393,6 +395,34 @@ def test_the_view_fits_a_screen_of_1440_by_900(page: Page, load: str) -> None:
     settled(page)
     enter(page, "Load", load)
     assert run(page, "return document.documentElement.scrollHeight") <= 900
+
+
+def test_no_name_of_a_line_is_lost(page: Page) -> None:
+    open_design(page)
+    lines = {"force": 6, "stiffness": 2, "volume": 2, "over-pressure": 2}
+    for width, height in SIZES:
+        page.set_viewport_size({"width": width, "height": height})
+        for plot, count in lines.items():
+            expect(page.locator(f"#{plot} .labels span:not(.zone)")).to_have_count(count)
+
+
+def test_nothing_moves_when_the_answer_comes(page: Page) -> None:
+    page.set_viewport_size({"width": 1440, "height": 900})
+    held: list[Route] = []
+    page.route("**/api/curves", lambda route: held.append(route))
+    page.goto("about:blank")
+    page.goto("/")
+    expect(page.locator(".effects-row .chip").first).to_be_visible()
+    places = """
+      const all = [".answer-card", ".sureness", "#force", "#stiffness", ".effects-row", ".tables"];
+      return all.map((what) => Math.round(document.querySelector(what).getBoundingClientRect().top));
+    """
+    before = run(page, places)
+    page.unroute_all()  # lets them go
+    assert held
+    marked(page, "[data-drawn]")
+    settled(page)
+    assert run(page, places) == before
 
 
 @pytest.fixture
