@@ -67,13 +67,13 @@ export function append(el, kid) {
   }
 }
 
-/** An element with a child for each item. A child stays, with its focus, as long as an item has its key; what it shows
- * of the item it reads from signals.
+/** An element with a child for each item, behind its `first` ones. A child stays, with its focus, as long as an item has
+ * its key; what it shows of signals it reads in functions. The focus of a child that goes moves to its neighbour.
  * @template {keyof HTMLElementTagNameMap} K @template T
  * @param {K} tag @param {Record<string, unknown> | null} props @param {() => T[]} items @param {(item: T) => unknown} keyOf
- * @param {(item: T) => HTMLElement} build @returns {HTMLElementTagNameMap[K]} */
-export function each(tag, props, items, keyOf, build) {
-  const el = h(tag, props);
+ * @param {(item: T) => HTMLElement} build @param {HTMLElement[]} first @returns {HTMLElementTagNameMap[K]} */
+export function each(tag, props, items, keyOf, build, ...first) {
+  const el = h(tag, props, ...first);
   /** @type {Map<unknown, [HTMLElement, () => void]>} */
   const shown = new Map();
   effect(() => {
@@ -94,7 +94,8 @@ export function each(tag, props, items, keyOf, build) {
       const key = keyOf(item);
       if (!shown.has(key)) shown.set(key, scope(() => build(item)));
       const child = /** @type {[HTMLElement, () => void]} */ (shown.get(key))[0];
-      if (el.children[i] !== child) el.insertBefore(child, el.children[i] ?? null);
+      const place = el.children[first.length + i];
+      if (place !== child) el.insertBefore(child, place ?? null);
     });
   });
   return el;

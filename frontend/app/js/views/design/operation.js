@@ -1,7 +1,7 @@
 // @ts-check
 // What is asked about, load and pressure; and the card of conditions: pressures of the curves, direction of motion,
 // temperature, dead volume, fixed length.
-import { h, icon } from "../../dom.js";
+import { each, h, icon } from "../../dom.js";
 import { figure } from "../../facts.js";
 import { computed, signal } from "../../reactive.js";
 import { commit, preview, units } from "../../state.js";
@@ -38,18 +38,17 @@ function chip(p) {
     const limit = curves.value?.limits.max_pressure;
     return limit != null && p > limit * (1 + 1e-9);
   };
-  const name = `${shownPressure(p)} ${pressureScale().unit}`;
   return h(
     "li",
     {
       class: () => `chip${over() ? " over" : ""}`,
       title: () => over() ? "Above the permitted pressure" : null,
     },
-    shownPressure(p),
+    () => shownPressure(p),
     h("button", {
       type: "button",
-      "aria-label": `Remove ${name}`,
-      disabled: pressures.value.length < 2,
+      "aria-label": () => `Remove ${shownPressure(p)} ${pressureScale().unit}`,
+      disabled: () => pressures.value.length < 2,
       onclick: () => setPressures(pressures.peek().filter((q) => q !== p), "remove pressure"),
     }, icon("close")),
   );
@@ -97,7 +96,7 @@ function pressureEditor() {
     h(
       "div",
       { class: "chips" },
-      h("ul", { "aria-label": "Pressures of the curves" }, () => pressures.value.map(chip)),
+      each("ul", { "aria-label": "Pressures of the curves" }, () => pressures.value, (p) => p, chip),
       h("span", { class: "chip add" }, input),
     ),
     () => {

@@ -2,7 +2,7 @@
 // The ranked list: one row per proposal, with its reasons and margins below it on request.
 import { inSentence } from "../../facts.js";
 import { capitalized, scaleOf, toShown } from "../../format.js";
-import { h, icon } from "../../dom.js";
+import { each, h, icon } from "../../dom.js";
 import { computed, effect, signal } from "../../reactive.js";
 import { units } from "../../state.js";
 import { menuButton } from "../../ui/menu.js";
@@ -253,9 +253,12 @@ export function proposalsCard() {
     h(
       "div",
       { class: "scroll", tabindex: 0, role: "region", "aria-label": "Ranked drives" },
-      h(
+      each(
         "table",
         { class: "data" },
+        () => sorted.value,
+        ({ p }) => p,
+        ({ p, i }) => row(p, i),
         h("caption", { class: "unseen" }, "Drives that fulfil the task, best first"),
         h(
           "thead",
@@ -279,7 +282,6 @@ export function proposalsCard() {
             h("td", null),
           ),
         ),
-        () => sorted.value.map(({ p, i }) => row(p, i)),
       ),
     ),
   );
