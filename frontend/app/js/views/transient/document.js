@@ -15,7 +15,7 @@ export const defaultTransient = () => ({
   drive: defaultDrive(),
   mode: "command",
   scenario: null,
-  signals: ["position", "valve", "pressure", "flow"],
+  signals: ["position", "valve", "pressure", "flow", "angle", "torque", "stiffness"], // the last three of joints only
   tolerance: 0.05,
   window: null,
   phase: null,

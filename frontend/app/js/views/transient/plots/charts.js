@@ -69,7 +69,7 @@ const SIGNALS = [
     (r) => r.pressure,
   ),
   signalOf("flow", "run.mass_flow", "Mass flow over time", flowSpec, (r) => r.mass_flow),
-  signalOf("force", "run.force", "Force over time", forceSpec, (r) => r.force),
+  signalOf("force", "run.force", "Force of the muscle over time", forceSpec, (r) => r.force),
   signalOf("speed", "run.velocity", "Velocity over time", speedSpec, (r) => r.velocity),
   signalOf(
     "acceleration",
