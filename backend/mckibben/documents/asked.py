@@ -32,6 +32,7 @@ _FILLING = frozenset((
     "space", "stiffness", "stroke", "supply", "takes", "that", "the", "to", "travel", "under", "up",
     "vertical", "vertically", "weight", "what", "where", "which", "will", "with", "within",
 ))  # fmt: skip
+_LARGEST = 1e30  # far beyond any design; its weight and its SI value are still numbers
 _STROKE_BEFORE = re.compile(
     r"(?:\b(?:by|stroke|travel|lifts?|move|raise)(?:\s+(?:of|it))*)\s*$", re.IGNORECASE
 )
@@ -174,6 +175,8 @@ def _quantity_reader(match: re.Match[str], text: str) -> _Reader:
     def read(line: AskedLine) -> _Read:
         if unit is None:
             raise InputError("a number without a unit")
+        if abs(number) > _LARGEST:
+            raise InputError("too large a number")
 
         def value(of: str) -> float | None:
             try:
