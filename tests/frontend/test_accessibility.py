@@ -15,6 +15,7 @@ from tests.frontend.views import (
     open_catalogue,
     open_compare,
     open_design,
+    open_inputs,
     redrawn,
     run,
 )
@@ -65,7 +66,9 @@ def test_axe_finds_nothing_in_the_design_view(page: Page) -> None:
     for unfold in page.locator(".fold:visible").all():
         unfold.click()
     assert violations(page, themes=2) == []
-    page.locator("[data-effect] button[aria-label^='About']").first.click()
+    page.locator("[data-effect] button").first.click()
+    assert violations(page, ".effect-values", themes=2) == []
+    page.locator(".effect-values button[aria-label^='About']").first.click()
     assert violations(page, "[role=dialog], dialog[open]", themes=2) == []
     page.keyboard.press("Escape")
     page.keyboard.press("?")
@@ -135,10 +138,10 @@ def test_keys_views_search_and_typing(page: Page) -> None:
     page.keyboard.press("Escape")
     expect(dialog).to_be_hidden()
     page.keyboard.press("/")
-    expect(page.get_by_label("Search effects")).to_be_focused()
+    expect(page.get_by_label("Ask: muscle")).to_be_focused()
     page.keyboard.type("2?")  # typed into the field: neither a view nor the list
-    expect(page.get_by_label("Search effects")).to_have_value("2?")
-    page.get_by_label("Search effects").fill("")
+    expect(page.get_by_label("Ask: muscle")).to_have_value("2?")
+    page.keyboard.press("Escape")
     page.locator("body").click(position={"x": 4, "y": 400})
     page.keyboard.press("4")
     expect(page.get_by_role("region", name="Table of parts")).to_be_visible()
@@ -151,7 +154,7 @@ def test_keys_views_search_and_typing(page: Page) -> None:
 
 
 def test_load_line_and_sliders_by_keyboard(page: Page) -> None:
-    open_design(page)
+    open_inputs(page)
     line = page.get_by_role("slider", name="Load line in the force plot")
     start = float(line.get_attribute("aria-valuenow") or 0)
     line.focus()

@@ -37,10 +37,10 @@ DRAWS = {
     "views/compare/where/residual-spec.js": 1,  # points of one direction beside each other
     "views/compare/where/specs.js": 1,  # whether there are many points
     "views/design/errors.js": 1,  # width of a bar
+    "views/design/residuals.js": 1,  # the nearest point
     "views/sizing/front.js": 1,  # the nearest point
     "views/studies/charts.js": 1,  # number of bins
     "views/studies/summary.js": 1,  # width of a bar
-    "views/transient/motion/pair-picture.js": 5,  # outline of a braid, cords on a pulley
     # Counts of what the user sees or asks for.
     "measurement/asks.js": 1,  # rows left out
     "views/compare/board/rows.js": 1,  # fitted values
@@ -50,10 +50,9 @@ DRAWS = {
     # page, from answers that the server gave at different times; a reader checks it by the two numbers.
     "format.js": 1,
     # Inputs: ends of a range for a distribution when the method changes, a long pasted table thinned out and
-    # how far that goes, the order of the lists of effects.
+    # how far that goes.
     "views/studies/forms.js": 2,
     "views/transient/inputs/table-file.js": 1,
-    "views/transient/inputs/panel.js": 1,
 }
 
 

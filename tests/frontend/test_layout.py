@@ -89,7 +89,7 @@ def test_every_width(page: Page, page_guard: PageGuard, view: str) -> None:
         assert len(run(page, MAP_DECIMALS)) <= 1, width
 
 
-def test_results_come_before_inputs_on_a_phone_and_plots_follow_the_width(page: Page) -> None:
+def test_the_answer_comes_first_on_a_phone_and_plots_follow_the_width(page: Page) -> None:
     page.set_viewport_size({"width": 1440, "height": 1000})
     open_design(page)
     page.set_viewport_size({"width": 390, "height": 844})
@@ -97,10 +97,11 @@ def test_results_come_before_inputs_on_a_phone_and_plots_follow_the_width(page: 
         page,
         """
         const top = (what) => document.querySelector(what).getBoundingClientRect().top;
-        return ["#force", "#rmse", "#preset"].map(top);
+        return [".answer-card", "#force", "#rmse", ".tables"].map(top);
         """,
     )
     assert tops == sorted(tops)
+    assert tops[0] < 500  # the answer is in sight without scrolling
     page.wait_for_timeout(300)
     sizes = run(
         page,

@@ -35,7 +35,7 @@ def tab(page: Page, name: str) -> None:
 
 def task(page: Page) -> None:
     tab(page, "Design")
-    page.get_by_role("radio", name="Task", exact=True).click()
+    page.get_by_role("radio", name="Find a drive", exact=True).click()
 
 
 def muscle(page: Page) -> None:
@@ -46,7 +46,7 @@ def muscle(page: Page) -> None:
 # How to get to a view, what to change there the nth time, and what is dimmed until the answer comes.
 View = tuple[Callable[[Page], None], Callable[[Page, int], Any], str]
 VIEWS: dict[str, View] = {
-    "Design": (muscle, lambda page, n: enter(page, "Braid angle", str(23 + n)), "#force"),
+    "Design": (muscle, lambda page, n: enter(page, "Rest length", str(280 + n)), "#force"),
     "Transient": (
         lambda page: tab(page, "Transient"),
         lambda page, n: enter(page, "Mass", str(15 + n)),

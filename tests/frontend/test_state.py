@@ -329,4 +329,4 @@ def test_a_link_to_a_preset_that_is_gone_says_so(page: Page, page_guard: PageGua
     }
     page.goto("/" + packed(json.dumps({"schema": 1, "design": document})))
     expect(page.locator(".notice")).to_contain_text("GONE-7")
-    expect(page.get_by_label("Muscle preset")).to_be_visible()
+    expect(page.locator("#preset")).to_be_visible()

@@ -45,6 +45,7 @@ _DOCUMENTS: dict[str, object] = {}
 # As after loading, as far as tests see it; ends when nothing is asked or drawn any more.
 _EMPTIED = """
 for (const dialog of document.querySelectorAll("dialog[open]")) dialog.close();
+for (const fold of document.querySelectorAll(".all-inputs, .tables, .notes")) fold.open = false;
 document.activeElement?.blur();
 localStorage.clear();
 for (const part of document.querySelectorAll("*")) if (part.scrollTop) part.scrollTop = 0;
@@ -89,6 +90,22 @@ def open_design(page: Page, link: str = "") -> None:
     """
     load(page, link)
     marked(page, "[data-drawn]")
+
+
+def open_inputs(page: Page, link: str = "") -> None:
+    """The Design view with all its inputs in sight: geometry, curves, conditions."""
+    open_design(page, link)
+    page.get_by_text("Geometry, curves, conditions").click()
+
+
+def add_effect(page: Page, name: str) -> Locator:
+    """Add the first effect that is found by a name; its chip."""
+    page.keyboard.press("Control+k")
+    expect(page.get_by_role("dialog").get_by_role("combobox")).to_be_focused()
+    page.keyboard.type(f"add effect {name}")
+    title = page.locator("#commands [role=option] span").first.inner_text()
+    page.keyboard.press("Enter")
+    return page.locator("[data-effect]:visible", has_text=title.partition(" (")[0])
 
 
 def open_catalogue(page: Page) -> None:

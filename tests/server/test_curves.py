@@ -385,3 +385,38 @@ def test_the_used_share_of_each_limit(shared_client: TestClient) -> None:
 def test_an_answer_names_its_branch(shared_client: TestClient, direction: int, words: str) -> None:
     answer = curves(shared_client, {"preset": "DMSP-20"}, direction=direction)
     assert answer["branch"].startswith(words)
+
+
+def test_a_load_at_one_pressure_agrees_with_the_inverse_questions(shared_client: TestClient) -> None:
+    """Lift, rest and pressure of one answer are those that the inverse questions give one by one."""
+    muscle, load = {"preset": "DMSP-20", "nominal_length": "300 mm"}, "196.133 N"
+    lift = curves(
+        shared_client, muscle, load=load, at_pressure="6 bar", at_contraction="15 %", pressures=["1 bar"]
+    )["lift"]
+
+    def asked(**question: object) -> dict:
+        return post(shared_client, "/api/inverse", {"muscle": muscle, **question}).json()
+
+    rest = asked(question="contraction", force=load, pressure="6 bar", direction=-1)
+    hanging = asked(question="contraction", force=load, pressure=0.0, direction=1)
+    assert lift["contraction"] == pytest.approx(rest["value"], rel=1e-9)
+    assert lift["hanging_length"] == pytest.approx(0.3 * (1 - hanging["value"]), rel=1e-9)
+    assert lift["lift"] == pytest.approx(lift["hanging_length"] - lift["length"], rel=1e-12)
+    for way, direction in (("filling", -1), ("venting", 1)):
+        found = asked(question="pressure", force=load, contraction="15 %", direction=direction)
+        assert lift[f"pressure_{way}"] == pytest.approx(found["value"], rel=1e-12)
+    assert lift["contraction_vented"] > lift["contraction"]  # dry friction holds what was contracted
+    assert 0 < lift["stiffness"] < lift["stiffness_closed"]
+
+
+def test_a_load_that_is_not_held_says_why(shared_client: TestClient) -> None:
+    answer = curves(
+        shared_client,
+        {"preset": "DMSP-20"},
+        effects={},
+        load="5 kN",
+        at_pressure="1 bar",
+        pressures=["1 bar"],
+    )
+    assert answer["lift"]["lift"] is None
+    assert any("braid lock" in flag["message"] for flag in answer["lift"]["flags"])

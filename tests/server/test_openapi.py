@@ -20,6 +20,7 @@ PATHS = {
     "/api/presets/muscles": {"post"},
     "/api/presets/muscles/fitted": {"post"},
     "/api/order-codes/{code}": {"get"},
+    "/api/asked": {"post"},
     "/api/curves": {"post"},
     "/api/inverse": {"post"},
     "/api/joints": {"post"},

@@ -265,6 +265,8 @@ class Model(Exportable):
         fixed_length: Quantity | None = None,
         unclipped: bool = False,
         further_stiffness: bool = False,
+        at_pressure: Quantity | None = None,
+        at_contraction: Quantity | None = None,
     ) -> Curves:
         """Force, stiffness, volume and diameter over the contraction.
 
@@ -276,6 +278,8 @@ class Model(Exportable):
             fixed_length: where the force is shown over the pressure [m].
             unclipped: whether to show what a slack muscle would push.
             further_stiffness: whether to answer the stiffness that the force implies and the secant too.
+            at_pressure: gauge pressure at which `lift` says what the muscle does with the load [Pa].
+            at_contraction: the contraction whose pressure `lift` holds too.
 
         Raises:
             Problem: a pressure or range that cannot be used, a muscle without a length.
@@ -290,6 +294,8 @@ class Model(Exportable):
             _optional_number(load, "N", "load"),
             _optional_number(fixed_length, "m", "fixed_length"),
             further_stiffness=further_stiffness,
+            at_pressure=_optional_number(at_pressure, "Pa", "at_pressure"),
+            at_contraction=_optional_number(at_contraction, "1", "at_contraction"),
         )
         return Curves.of(curves(question, self._studio), _name=self.name)
 

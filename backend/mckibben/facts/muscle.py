@@ -193,6 +193,68 @@ OPERATING_POINT = Group(
     ),
 )  # fmt: skip
 
+_ASKED_CONTRACTION = Condition("a contraction is asked for", "no contraction is asked for")
+_ASKED_BOTH = Condition(
+    "a contraction is asked for and a pressure up to 40 bar holds the load there",
+    "no pressure up to 40 bar holds the load at this contraction",
+)
+#: What a muscle does with the load at one pressure.
+LIFT = Group(
+    "lift",
+    "What the muscle does with the load",
+    Figure("pressure", "P", "Pa", "Pressure", "Gauge pressure in the muscle."),
+    Figure("load", "F", "N", "Load", "The stated load; a mass weighs 9.80665 N a kilogram."),
+    Figure(
+        "contraction", "ε", "1", "Contraction",
+        "(L₀ − L)/L₀ where the static force equals the load, reached while filling.", _HELD, quantity="ratio",
+    ),
+    Figure(
+        "contraction_vented", "ε", "1", "Contraction after venting",
+        "(L₀ − L)/L₀ where the static force equals the load, reached while venting from a higher pressure.",
+        _HELD, quantity="ratio",
+    ),
+    Figure(
+        "length", "L", "m", "Length at rest",
+        "L₀ (1 − ε): where the load comes to rest at the pressure while filling.", _HELD,
+    ),
+    Figure(
+        "hanging_length", "L", "m", "Length without pressure",
+        "Where the load hangs at zero gauge pressure after venting.",
+        Condition("the load is held without pressure short of the braid lock",
+                  "without pressure the load stretches the muscle to the braid lock"),
+    ),
+    Figure(
+        "lift", "s", "m", "Lift",
+        "From where the load hangs without pressure, after venting, to where it rests at the pressure, while "
+        "filling.",
+        _CARRIED,
+    ),
+    Figure(
+        "stiffness", "k", "N/m", "Stiffness, valve open",
+        "dF/dL at the load and the pressure with the pressure held, while filling.", _HELD,
+    ),
+    Figure(
+        "stiffness_closed", "k_c", "N/m", "Stiffness, valve closed",
+        "dF/dL at the load and the pressure with the gas mass held, while filling, with the stated exponent "
+        "and dead volume.",
+        _HELD,
+    ),
+    Figure(
+        "asked_contraction", "ε", "1", "Asked contraction", "The contraction whose pressure is asked for.",
+        _ASKED_CONTRACTION, quantity="ratio",
+    ),
+    Figure(
+        "pressure_filling", "P", "Pa", "Pressure",
+        "Gauge pressure up to 40 bar that holds the load at the asked contraction, reached while filling.",
+        _ASKED_BOTH,
+    ),
+    Figure(
+        "pressure_venting", "P", "Pa", "Pressure while venting",
+        "Gauge pressure up to 40 bar that holds the load at the asked contraction, reached while venting.",
+        _ASKED_BOTH,
+    ),
+)  # fmt: skip
+
 #: Distance of the branches at the load, of a slow loop far from its ends.
 LOOP = Group(
     "loop",

@@ -23,7 +23,7 @@ from mckibben.server import errors, static
 from mckibben.server.errors import error_answer, unexpected_answer
 from mckibben.server.lanes import Lanes
 from mckibben.server.metrics import Requests
-from mckibben.server.routes.curves import curves_router, inverse_router, joints_router
+from mckibben.server.routes.curves import asked_router, curves_router, inverse_router, joints_router
 from mckibben.server.routes.drives import (
     linearisations_router,
     simulations_router,
@@ -137,6 +137,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     # Routes are matched in this order: first the one requested at every movement of a slider.
     routers = (
         curves_router,
+        asked_router,
         simulations_router,
         linearisations_router,
         inverse_router,

@@ -162,6 +162,8 @@ def curves_question(body: CurvesRequest, studio: Studio) -> CurvesQuestion:
         load=body.load,
         fixed_length=body.fixed_length,
         further_stiffness=body.further_stiffness,
+        at_pressure=body.at_pressure,
+        at_contraction=body.at_contraction,
         conditions=Conditions(
             direction=body.direction,
             temperature=body.temperature,

@@ -2,6 +2,7 @@
 // What the command palette offers, from what the views and the server have.
 import { openExample as openDesign } from "./views/design/examples.js";
 import { openExample as openTask } from "./views/sizing/model.js";
+import { effectsToAdd } from "./muscle/effects.js";
 import { usePreset } from "./muscle/preset.js";
 import { showMuscle } from "./muscle/document.js";
 import { goTo, look, view } from "./state.js";
@@ -32,6 +33,7 @@ export function showCommands(views, keys, actions) {
       run: () => look((d) => ({ ...d, view: "catalogue", catalogue: { ...d.catalogue, kind: "effects" } })),
     },
     ...actions,
+    ...effectsToAdd(),
     ...views.filter(({ id }) => id === view.peek()).flatMap(({ exports }) =>
       exports().flatMap((item) =>
         "run" in item ? [{ label: item.label, kind: "export", note: item.note, run: item.run }] : []
@@ -62,8 +64,8 @@ export function showCommands(views, keys, actions) {
       run: () => openDesign(p),
     })),
     ...effects.peek().map((e) => ({
-      label: e.title,
-      kind: "effect",
+      label: `About ${e.title}`,
+      kind: "effect in the atlas",
       run: () =>
         look((d) => ({
           ...d,

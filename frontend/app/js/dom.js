@@ -1,7 +1,7 @@
 // @ts-check
 // Elements built by function calls. A function as attribute or child is evaluated again whenever a signal it
 // reads changes.
-import { effect } from "./reactive.js";
+import { effect, scope } from "./reactive.js";
 
 /** @typedef {Node | string | number | null | undefined | false} Leaf */
 /** @typedef {Leaf | Leaf[] | (() => Leaf | Leaf[])} Child */
@@ -67,6 +67,40 @@ export function append(el, kid) {
   }
 }
 
+/** An element with a child for each item, behind its `first` ones. A child stays, with its focus, as long as an item has
+ * its key; what it shows of signals it reads in functions. The focus of a child that goes moves to its neighbour.
+ * @template {keyof HTMLElementTagNameMap} K @template T
+ * @param {K} tag @param {Record<string, unknown> | null} props @param {() => T[]} items @param {(item: T) => unknown} keyOf
+ * @param {(item: T) => HTMLElement} build @param {HTMLElement[]} first @returns {HTMLElementTagNameMap[K]} */
+export function each(tag, props, items, keyOf, build, ...first) {
+  const el = h(tag, props, ...first);
+  /** @type {Map<unknown, [HTMLElement, () => void]>} */
+  const shown = new Map();
+  effect(() => {
+    const now = items(), keys = new Set(now.map(keyOf));
+    for (const [key, [child, stop]] of shown) {
+      if (keys.has(key)) continue;
+      const focused = child.contains(document.activeElement);
+      const beside =
+        /** @type {HTMLElement | null} */ (child.nextElementSibling ?? child.previousElementSibling);
+      stop();
+      child.remove();
+      shown.delete(key);
+      if (focused) {
+        /** @type {HTMLElement | null | undefined} */ (beside?.querySelector("button, input"))?.focus();
+      }
+    }
+    now.forEach((item, i) => {
+      const key = keyOf(item);
+      if (!shown.has(key)) shown.set(key, scope(() => build(item)));
+      const child = /** @type {[HTMLElement, () => void]} */ (shown.get(key))[0];
+      const place = el.children[first.length + i];
+      if (place !== child) el.insertBefore(child, place ?? null);
+    });
+  });
+  return el;
+}
+
 const SVG = "http://www.w3.org/2000/svg";
 
 /** An element of a drawing; null and undefined attributes are left out.
@@ -88,9 +122,6 @@ const ICONS = {
   export: "M10 3v9m-3.5-3.5L10 12l3.5-3.5M4 13v3.5h12V13",
   share: "M8.5 11.5 12 8m-4.5.5-2 2a2.8 2.8 0 0 0 4 4l2-2m-3-5 2-2a2.8 2.8 0 0 1 4 4l-2 2",
   help: "M7.5 7.7a2.5 2.5 0 1 1 3.6 2.2c-.8.4-1.1.9-1.1 1.8M10 14.5v.1",
-  sun: "M10 6.5a3.5 3.5 0 1 1 0 7 3.5 3.5 0 0 1 0-7M10 2v1.5M10 16.5V18M2 10h1.5M16.5 10H18" +
-    "M4.3 4.3l1.1 1.1M14.6 14.6l1.1 1.1M15.7 4.3l-1.1 1.1M5.4 14.6l-1.1 1.1",
-  moon: "M16 11.5A6.5 6.5 0 0 1 8.5 4a6.5 6.5 0 1 0 7.5 7.5Z",
   system: "M3.5 4.5h13v9h-13zM8 16.5h4M10 13.5v3",
   info: "M10 3a7 7 0 1 1 0 14 7 7 0 0 1 0-14M10 9.2V13.5M10 6.6v.1",
   reset: "M5 7.5A5.8 5.8 0 1 1 4.3 11M5 3.8v3.7h3.7",
@@ -102,8 +133,6 @@ const ICONS = {
   warn: "M10 3.5 17.5 16.5h-15ZM10 8.5v3.5M10 14.2v.1",
   search: "M9 4a5 5 0 1 1 0 10A5 5 0 0 1 9 4m3.6 8.6L16.5 16.5",
   down: "m6 8 4 4 4-4",
-  play: "M7 4.5v11l8.5-5.5Z",
-  pause: "M7 5v10M13 5v10",
   grip: "M7.5 5h.1M12.5 5h.1M7.5 10h.1M12.5 10h.1M7.5 15h.1M12.5 15h.1",
   file: "M5.5 3h6l3.5 3.5V17h-9.5ZM11.5 3v3.5H15",
   person: "M10 3.5a3 3 0 1 1 0 6 3 3 0 0 1 0-6M4 16.5c.7-3.300 3.200-4.600 6-4.600s5.300 1.300 6 4.600",

@@ -2,7 +2,7 @@
 // Quantities: SI in the program, the user's units on the page. Reading numbers with units, writing numbers with
 // sensible digits.
 import { UNITS } from "./facts.js";
-import { referenceShift, splitReference } from "./quantities.js";
+import { fits, measureOf, referenceShift, splitReference } from "./quantities.js";
 
 /** @typedef {"si" | "bar" | "us"} System */
 /** SI = shown × factor + offset, or shown = 20 lg SI of decibels.
@@ -120,16 +120,44 @@ function typedUnit(unit) {
   return Object.hasOwn(UNITS.typed, key) && !AMBIGUOUS.has(unit) ? UNITS.typed[key] : null;
 }
 
-/** Reads "30 cm", "6 bar", "25°", "1,5"; a bare number is in the shown unit.
+/** Weight of a mass [N/kg]. */
+export const GRAVITY = UNITS.typed.kgf.factor;
+
+/** The value of "20*9.81" or "20 kg * 9.81 m/s^2"; null: it is no calculation, or of another quantity.
+ * @param {string} text @param {Scale} s @param {Quantity | null} quantity @param {boolean} [weighs] */
+function calculated(text, s, quantity, weighs) {
+  const measure = measureOf(
+    text.replace(/(\d),(\d)/g, "$1.$2").replaceAll("×", "*").replaceAll("−", "-"),
+    true,
+  );
+  if (!measure || !Number.isFinite(measure.factor)) return null;
+  const si = UNITS.quantities[quantity ?? "number"] ?? "1";
+  if (fits(measure, si.replace("%", "1"))) {
+    const plain = si === "1" && !text.includes("%");
+    return {
+      value: plain ? toSi(measure.factor, s) : measure.factor,
+      kind: plain ? undefined : quantity ?? "number",
+    };
+  }
+  if (fits(measure, "1") && !text.includes("%")) return { value: toSi(measure.factor, s) };
+  return weighs && fits(measure, "kg") ? { value: measure.factor * GRAVITY, kind: "mass" } : null;
+}
+
+/** Reads "30 cm", "6 bar", "25°", "1,5", "20*9.81"; a bare number is in the shown unit.
  * @param {string} text @param {Scale} s @param {Quantity | null} quantity
  * @param {string} [sample] the number of the example
- * @param {import("./quantities.js").Counted} [counted] what a pressure is counted from
- * @returns {{value: number} | {error: string}} SI */
+ * @param {import("./quantities.js").Counted & {weighs?: boolean}} [counted] what a pressure is counted from; whether
+ * a mass is read as its weight
+ * @returns {{value: number, kind?: string} | {error: string}} SI; `kind`: the quantity of the typed unit */
 export function parse(text, s, quantity, sample, counted = {}) {
   const tidy = text.trim().replace("−", "-").replace(/^([+-]?\d+),(\d+)(?=\D|$)/, "$1.$2");
   const example = `${sample || "1.5"} ${s.unit}`.trim();
   if (tidy === "") return { error: `Enter a number, for example ${example}.` };
   const match = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*)$/i.exec(tidy);
+  const result = /[\d)]\s*[-+*/×^]/.test(tidy) && !/^[+-]?[\d.]+e/i.test(tidy)
+    ? calculated(tidy, s, quantity, counted.weighs)
+    : null;
+  if (result) return result;
   if (!match) return { error: `“${text.trim()}” is not a number. Enter for example ${example}.` };
   const value = Number(match[1]);
   const { unit, stated } = splitReference(match[2].trim());
@@ -140,18 +168,19 @@ export function parse(text, s, quantity, sample, counted = {}) {
         `for example ${example}.`,
     };
   }
-  if (!unit || (unit === s.unit && stated === null) || (s.unit && tidyUnit(unit) === s.unit)) {
-    return { value: toSi(value, s) + shift };
-  }
   const known = typedUnit(unit);
+  if (!unit || (unit === s.unit && stated === null) || (s.unit && tidyUnit(unit) === s.unit)) {
+    return { value: toSi(value, s) + shift, kind: unit ? known?.quantity : undefined };
+  }
   if (!known) return { error: `The unit “${unit}” is not known. Enter for example ${example}.` };
   const kind = /** @type {Quantity} */ (known.quantity), { factor, offset } = known;
   const wanted = basicQuantity(quantity);
   if (kind === "ratio" && wanted === "number" && s.unit === "") return { value: value * factor };
+  if (counted.weighs && kind === "mass") return { value: value * factor * GRAVITY, kind };
   if (basicQuantity(kind) !== wanted) {
     return { error: `“${unit}” measures ${noun(kind)}, this is ${noun(wanted)}.` };
   }
-  return { value: value * factor + offset + shift };
+  return { value: value * factor + offset + shift, kind };
 }
 
 /** The same quantity may be shown on different scales. @param {Quantity | null} quantity */

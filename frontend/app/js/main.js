@@ -118,11 +118,12 @@ const KEYS = [
   { keys: "Ctrl Shift Z", what: "Redo", match: control("z", true), run: redoAndReport },
   {
     keys: "/",
-    what: "Search effects, or the catalogue",
+    what: "Ask in Design, search the catalogue",
     match: plain("/"),
     run: () => {
-      const fields = [...document.querySelectorAll("input[type=search]")];
-      /** @type {HTMLElement | undefined} */ (fields.find((el) => el.checkVisibility()))?.focus();
+      const fields = [...document.querySelectorAll("#ask, input[type=search]")];
+      const field = /** @type {HTMLInputElement | undefined} */ (fields.find((el) => el.checkVisibility()));
+      field?.select();
     },
   },
 ];

@@ -16,21 +16,30 @@ const times = (one, other, sign) => ({
   of: one.of.map((x, i) => x + sign * other.of[i]),
 });
 
-/** Factor to SI and dimension of a unit such as "l/(s*bar)"; null: unknown unit. @param {string} text
- * @returns {Measure | null} */
-function measureOf(text) {
-  const tokens = text.match(/[A-Za-zµ°%]+|\*\*|[()*/·^ ]|-?\d+/g) ?? [];
+const UNIT = /[A-Za-zµ°%]+|\*\*|[()*/·^ ]|-?\d+/g;
+const CALCULATED = /\d+\.?\d*(?:e[+-]?\d+)?|\.\d+|[A-Za-zµ°%]+|\*\*|[()*/·^ +-]/gi;
+
+/** Factor to SI and dimension of a unit such as "l/(s*bar)", or of a calculation such as "20 kg * 9.81 m/s^2";
+ * null: an unknown unit, or a sum of different things. @param {string} text @param {boolean} [calculated]
+ * whether numbers may stand in it @returns {Measure | null} */
+export function measureOf(text, calculated = false) {
+  const tokens = text.match(calculated ? CALCULATED : UNIT) ?? [];
   if (tokens.join("") !== text) return null;
   let at = 0;
+  const blank = () => {
+    while (calculated && tokens[at] === " ") at++;
+  };
   /** @returns {Measure | null} */
   const power = () => {
+    blank();
     const token = tokens[at++];
     /** @type {Measure | null} */
     let base = null;
     if (token === "(") {
-      base = product();
+      base = sum();
       if (tokens[at++] !== ")") return null;
-    } else base = MEASURES.get(token) ?? null;
+    } else if (calculated && /^[\d.]/.test(token ?? "")) return { factor: Number(token), of: NOTHING };
+    else base = MEASURES.get(token) ?? null;
     if (base === null) return null;
     if (tokens[at] === "^" || tokens[at] === "**") at++;
     if (!/^-?\d+$/.test(tokens[at] ?? "")) return base;
@@ -40,20 +49,30 @@ function measureOf(text) {
   /** @returns {Measure | null} */
   const product = () => {
     let value = power();
-    while (value !== null && at < tokens.length && tokens[at] !== ")") {
+    for (blank(); value !== null && at < tokens.length && !/^[)+-]$/.test(tokens[at]); blank()) {
       const sign = /[*/· ]/.test(tokens[at]) ? tokens[at++] : "*";
       const next = power();
       value = next === null ? null : times(value, next, sign === "/" ? -1 : 1);
     }
     return value;
   };
-  const value = product();
+  /** @returns {Measure | null} */
+  const sum = () => {
+    let value = product();
+    while (value !== null && /^[+-]$/.test(tokens[at] ?? "")) {
+      const sign = tokens[at++] === "+" ? 1 : -1, next = product();
+      if (next === null || next.of.some((x, i) => x !== value?.of[i])) return null;
+      value = { factor: value.factor + sign * next.factor, of: value.of };
+    }
+    return value;
+  };
+  const value = sum();
   return at === tokens.length ? value : null;
 }
 
 /** Whether a unit measures what an SI unit does; without a unit: whether that is a plain number.
  * @param {Measure | null} measure @param {string} si */
-function fits(measure, si) {
+export function fits(measure, si) {
   const wanted = measureOf(si), of = measure?.of ?? NOTHING;
   return wanted !== null && wanted.of.every((x, i) => x === of[i]);
 }

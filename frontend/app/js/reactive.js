@@ -1,7 +1,8 @@
 // @ts-check
 // Signals: values that effects follow.
 
-/** @typedef {{fn: () => void, deps: Set<Set<Effect>>, kids: Effect[], live: boolean}} Effect */
+/** `deaf`: it follows no signal, it only holds the effects made inside.
+ * @typedef {{fn: () => void, deps: Set<Set<Effect>>, kids: Effect[], live: boolean, deaf?: boolean}} Effect */
 let running = /** @type {Effect | null} */ (null);
 const queue = /** @type {Set<Effect>} */ (new Set());
 let depth = 0;
@@ -15,7 +16,7 @@ export class Signal {
     this.subs = /** @type {Set<Effect>} */ (new Set());
   }
   get value() {
-    if (running) {
+    if (running && !running.deaf) {
       this.subs.add(running);
       running.deps.add(this.subs);
     }
@@ -70,6 +71,14 @@ export function effect(fn) {
   running?.kids.push(e);
   run(e);
   return () => clear(e);
+}
+
+/** Runs fn; the effects made inside live until they are stopped together. @template T @param {() => T} fn
+ * @returns {[T, () => void]} */
+export function scope(fn) {
+  /** @type {Effect} */
+  const e = { fn: () => {}, deps: new Set(), kids: [], live: true, deaf: true };
+  return [within(e, fn), () => clear(e)];
 }
 
 /** Effects made inside fn are not stopped with the effect that is running. @template T @param {() => T} fn */

@@ -126,19 +126,12 @@ export function shell(views, { examples, help }) {
         h("button", {
           type: "button",
           "data-title": v.title,
+          "data-short": v.title.split(" ")[0],
           "aria-current": () => view.value === v.id ? "page" : null,
           onclick: () => goTo(v.id),
-        }, v.title)
+        }, named(v.title))
       ),
     ),
-    menuButton({
-      label: () => [views.find((v) => v.id === view.value)?.title ?? "", icon("down")],
-      visible: true,
-      name: "Views",
-      class: "views-menu",
-      items: () =>
-        views.map((v) => ({ label: v.title, checked: v.id === view.peek(), run: () => goTo(v.id) })),
-    }),
     projectButton(),
     menuButton({ label: ["Examples", icon("down")], name: "Examples", class: "quiet", items: examples }),
     h("span", { class: "space" }),
@@ -205,6 +198,12 @@ export function shell(views, { examples, help }) {
       : null;
   };
   return { bar, main, show, banner, status: h("p", { role: "status", class: "status" }, () => status.value) };
+}
+
+/** A title; where there is little room its first word stands alone. @param {string} title */
+function named(title) {
+  const [first, ...rest] = title.split(" ");
+  return h("span", null, first, rest.length ? h("span", { class: "rest" }, ` ${rest.join(" ")}`) : null);
 }
 
 function lostBanner() {

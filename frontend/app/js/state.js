@@ -5,7 +5,7 @@ import { batch, computed, signal } from "./reactive.js";
 
 /** @typedef {import("./types.js").Doc} Doc */
 /** @typedef {Omit<Doc, "schema" | "view" | "units">} Parts */
-/** @typedef {{doc: Doc, label: string, at: number}} Step */
+/** `key`: changes of one thing shortly after each other are one step. @typedef {{doc: Doc, key: string, label: string, at: number}} Step */
 /** A part of the document: its value in a new document, and how it is read from a link or file, where undefined
  * means that it is missing; `read` throws an Error that says what is wrong.
  * @template T @typedef {{start: () => T, read: (raw: unknown) => T}} Part */
@@ -49,28 +49,36 @@ export function preview(change) {
   doc.value = change(start);
 }
 
-/** Ends a change: one undo step for all its previews. Changes with the same label shortly after each other are
- * one step too.
- * @param {string} label */
-export function commit(label) {
+/** "300 N", "700 N" → "300 → 700 N". @param {string} from @param {string} to */
+function fromTo(from, to) {
+  const [number, unit] = from.split("\u00a0");
+  return `${unit && to.endsWith(`\u00a0${unit}`) ? number : from} → ${to}`;
+}
+
+/** Ends a change: one undo step for all its previews. Changes of the same thing shortly after each other are one
+ * step too.
+ * @param {string} what @param {(d: Doc) => string} [value] what was changed, in words */
+export function commit(what, value) {
   const start = before;
   before = null;
   if (!start || start === doc.peek()) return;
   const now = performance.now();
-  const last = past.peek().at(-1);
+  const last = past.peek().at(-1), merged = last && last.key === what && now - last.at < MERGE_MS;
+  const from = merged ? last.doc : start;
+  const label = value ? `${what} ${fromTo(value(from), value(doc.peek()))}` : what;
   batch(() => {
-    if (last && last.label === label && now - last.at < MERGE_MS) {
-      past.value = [...past.peek().slice(0, -1), { ...last, at: now }];
-    } else past.value = [...past.peek(), { doc: start, label, at: now }].slice(-HISTORY);
+    past.value = [...past.peek().slice(0, merged ? -1 : undefined), { doc: from, key: what, label, at: now }]
+      .slice(-HISTORY);
     future.value = [];
   });
 }
 
-/** Changes the document in one undo step. @param {(d: Doc) => Doc} change @param {string} label */
-export function edit(change, label) {
+/** Changes the document in one undo step. @param {(d: Doc) => Doc} change @param {string} what
+ * @param {(d: Doc) => string} [value] */
+export function edit(change, what, value) {
   batch(() => {
     preview(change);
-    commit(label);
+    commit(what, value);
   });
 }
 
@@ -89,7 +97,7 @@ function travel(from, to) {
   if (!step) return null;
   const here = doc.peek();
   batch(() => {
-    to.value = [...to.peek(), { doc: here, label: step.label, at: 0 }];
+    to.value = [...to.peek(), { ...step, doc: here, at: 0 }];
     from.value = from.peek().slice(0, -1);
     doc.value = { ...step.doc, view: here.view };
   });

@@ -33,9 +33,10 @@
 /** @typedef {"contraction" | "length" | "braid_angle"} Across */
 /** @typedef {"contraction" | "length" | "diameter" | "outer_diameter" | "outer_diameter_at_fixed_length" | "force"} Over */
 /** @typedef {"tangent" | "from_force" | "secant"} StiffnessOf */
-/** The Design view's part of the document; SI throughout.
+/** The Design view's part of the document; SI throughout. `pressure`: that which is asked about, null: the highest of
+ * the curves; `contraction`: that whose pressure is asked for; `load_as`: what was stated.
  * @typedef {{muscle: Muscle, effects: Record<string, Record<string, number>> | null, pressures: number[],
- *   load: number, direction: -1 | 0 | 1, temperature: number, dead_volume: number,
+ *   pressure: number | null, contraction: number | null, load: number, load_as: "force" | "mass", direction: -1 | 0 | 1, temperature: number, dead_volume: number,
  *   fixed_length: number | null, range: [number, number] | null, clipped: boolean, across: Across,
  *   over: Over, stiffness: StiffnessOf,
  *   reference: string | null}} Design */
@@ -89,11 +90,11 @@
 /** How the load of a drive is arranged.
  * @typedef {"hanging" | "inclined" | "horizontal" | "lever" | "antagonist" | "joint"} DriveArrangement */
 /** A whole drive document, muscle and effects included. @typedef {{name: string, drive: Drive}} Pin */
-/** The quantity of the plot that shows one of several. @typedef {"flow" | "force" | "valve"} Lower */
 /** What the phase plot shows when it is zoomed.
  * @typedef {{pressure: [number, number], contraction: [number, number]}} Zoom */
-/** The Transient view's part of the document.
- * @typedef {{drive: Drive, mode: "command" | "controller", scenario: string | null, lower: Lower,
+/** The Transient view's part of the document. `signals`: the strips that are shown; `tolerance`: of the reference, as a
+ * share of its range.
+ * @typedef {{drive: Drive, mode: "command" | "controller", scenario: string | null, signals: string[], tolerance: number,
  *   window: [number, number] | null, phase: Zoom | null, pins: Pin[], differing: boolean,
  *   measurement: {id: string, name: string} | null}} Transient */
 

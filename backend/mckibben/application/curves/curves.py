@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar, Literal
 
 import numpy as np
@@ -24,8 +24,8 @@ from mckibben.application.operating_limits import load_notices, pressure_notices
 from mckibben.application.prediction_interval import ForceInterval, force_interval
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
-from mckibben.facts.muscle import CURVES, LIMITS, LOOP, OVER_PRESSURE, branch_of
-from mckibben.facts.result import FiniteSeries, Rows, Series, result_class
+from mckibben.facts.muscle import CURVES, LIFT, LIMITS, LOOP, OVER_PRESSURE, branch_of
+from mckibben.facts.result import FiniteSeries, Number, Rows, Series, result_class
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import si
 from mckibben.presets import DesignPreset
@@ -49,6 +49,7 @@ from mckibben.simulation.statics.characteristics import (
     operating_points,
     pressure_branch,
 )
+from mckibben.simulation.statics.inverse import contraction_at, pressure_for_force
 from mckibben.simulation.statics.model import Curves, StaticModel
 
 #: Gauge pressures of curves where none are stated [Pa].
@@ -73,6 +74,8 @@ class CurvesQuestion:
         fixed_length: length at which the force is shown over the pressure [m]; None without it.
         conditions: direction of motion, temperature, volume behind a closed valve.
         further_stiffness: whether to answer the stiffness by its other definitions too.
+        at_pressure: gauge pressure at which the load is asked about [Pa]; needs a load.
+        at_contraction: the contraction whose pressure is asked for, under the load.
     """
 
     start: StartModel
@@ -85,6 +88,8 @@ class CurvesQuestion:
     fixed_length: float | None = None
     conditions: Conditions = field(default_factory=Conditions)
     further_stiffness: bool = False
+    at_pressure: float | None = None
+    at_contraction: float | None = None
 
 
 def example_question(example: DesignPreset, start: StartModel) -> CurvesQuestion:
@@ -141,6 +146,28 @@ class OverPressure:
     outer_diameter_at_fixed_length: Series | None
     loop: HysteresisLoop | None
     """Width of the loop of the two branches; None without a load."""
+
+
+@result_class
+class Lift:
+    """What the muscle does with the load at one pressure, SI; NaN where it cannot."""
+
+    FIGURES: ClassVar = LIFT.name
+
+    pressure: float
+    load: float
+    contraction: Number
+    contraction_vented: Number
+    length: Number
+    hanging_length: Number
+    lift: Number
+    stiffness: Number
+    stiffness_closed: Number
+    asked_contraction: float | None
+    pressure_filling: float | None
+    pressure_venting: float | None
+    flags: list[Notice]
+    """The limits that it crosses, and why a figure is missing."""
 
 
 @result_class
@@ -214,8 +241,10 @@ class CurvesResult:
     """The state at each pressure; empty without a load."""
     holds: OperatingPoint | None
     """The highest pressure that holds the load within the limits, or, if none does, that holds it at all."""
+    lift: Lift | None
+    """What the muscle does with the load at the asked pressure; None where none is asked about."""
     limits_used: list[LimitUse]
-    """How much of each known limit is used."""
+    """How much of each known limit is used: of the asked pressure, else of the largest of the curves."""
     flags: list[Notice]
     """Remarks on the answer."""
 
@@ -277,6 +306,7 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
     if question.further_stiffness:
         further = further_stiffness(model, columns, pressures, length, under_load.free)
     points: list[OperatingPoint] = []
+    lift = _lift(question, model)
     crossed = [flag for p in question.pressures for flag in model.limits.flags(pressure=p)]
     if question.load is not None:
         points, flags = operating_points(model, pressures, question.load, under_load.loaded, conditions)
@@ -314,7 +344,8 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
         over_pressure=_over_pressure(question, model, grid, under_load),
         operating_points=points,
         holds=_holding(points),
-        limits_used=_limits_used(model, question, points),
+        lift=lift,
+        limits_used=_limits_used(model, question, points, lift),
         flags=[
             *start_notices(start),
             *limit_notices(crossed),
@@ -338,14 +369,65 @@ def _reached(points: Sequence[OperatingPoint]) -> list[float]:
     return [point.contraction for point in points if math.isfinite(point.contraction)]
 
 
+def _lift(question: CurvesQuestion, model: StaticModel) -> Lift | None:
+    """What the muscle does with the load at the asked pressure."""
+    pressure, load, conditions = question.at_pressure, question.load, question.conditions
+    if pressure is None or load is None:
+        return None
+    # Held at the pressure while filling and while venting, and without pressure after venting.
+    pressures, ways = np.array([pressure, pressure, 0.0]), np.array([FILLING, VENTING, VENTING])
+    held = contraction_at(
+        model, load=load, pressures=pressures, direction=ways, temperature=conditions.temperature
+    )
+    filled, vented, hanging = held.tolist()
+    (point,), flags = operating_points(
+        model, pressures[:1], load, held[:1], replace(conditions, direction=FILLING)
+    )
+    rest = model.muscle.nominal_length
+    ends: list[float | None] = [None, None]
+    if question.at_contraction is not None:
+        length = rest * (1.0 - question.at_contraction)
+        if length < _SHORTEST * rest:
+            raise InputError(
+                f"no muscle contracts by {question.at_contraction * 100:.4g} %",
+                field="at_contraction",
+                hint="e.g. '15 %'",
+            )
+        for index, way in enumerate((FILLING, VENTING)):
+            found = pressure_for_force(
+                model, force=load, length=length, direction=way, temperature=conditions.temperature
+            )
+            ends[index] = found.value
+            if index == 0:
+                flags += [flag for flag in found.flags if flag not in flags]
+    return Lift(
+        pressure=pressure,
+        load=load,
+        contraction=filled,
+        contraction_vented=vented,
+        length=rest * (1.0 - filled),
+        hanging_length=rest * (1.0 - hanging),
+        lift=rest * (filled - hanging),
+        stiffness=point.stiffness,
+        stiffness_closed=point.stiffness_closed,
+        asked_contraction=question.at_contraction,
+        pressure_filling=ends[0],
+        pressure_venting=ends[1],
+        flags=limit_notices(flags),
+    )
+
+
 def _limits_used(
-    model: StaticModel, question: CurvesQuestion, points: Sequence[OperatingPoint]
+    model: StaticModel, question: CurvesQuestion, points: Sequence[OperatingPoint], lift: Lift | None
 ) -> list[LimitUse]:
     reached, limits = _reached(points), model.limits
+    highest = max(question.pressures)
+    if lift is not None:
+        highest, reached = lift.pressure, [x for x in (lift.contraction,) if math.isfinite(x)]
     return [
         LimitUse(name, used, limit, used / limit)
         for name, used, limit in (
-            ("max_pressure", max(question.pressures), limits.max_pressure),
+            ("max_pressure", highest, limits.max_pressure),
             ("max_force", question.load, limits.max_force),
             ("max_contraction", max(0.0, *reached) if reached else None, limits.max_contraction),
         )

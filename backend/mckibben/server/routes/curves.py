@@ -8,19 +8,34 @@ from fastapi.concurrency import run_in_threadpool
 from mckibben.application.curves.curves import CurvesResult, curves
 from mckibben.application.curves.inverse import InverseFinding
 from mckibben.application.joint.joint import JointResult
+from mckibben.documents.asked import AskedLine, read_asked
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StoreDep, StudioDep
 from mckibben.server.long_work import contained, whole
 from mckibben.server.questions import curves_question
 from mckibben.server.schemas.common import errors
-from mckibben.server.schemas.curves import CurvesRequest, InverseRequest, JointRequest
+from mckibben.server.schemas.curves import AskedRequest, CurvesRequest, InverseRequest, JointRequest
 
 curves_router = APIRouter(prefix="/api/curves", tags=["curves"], route_class=StrictRoute)
 
 joints_router = APIRouter(prefix="/api/joints", tags=["joints"], route_class=StrictRoute)
 
 inverse_router = APIRouter(prefix="/api/inverse", tags=["inverse"], route_class=StrictRoute)
+
+asked_router = APIRouter(prefix="/api/asked", tags=["curves"], route_class=StrictRoute)
+
+
+# In a worker thread: the library reads the user's folder.
+@asked_router.post(
+    "",
+    response_model=AskedLine,
+    responses=errors(400, 413, 415, 422),
+    openapi_extra=request_examples.worked("asked"),
+)
+def read_question(body: AskedRequest, studio: StudioDep) -> JsonAnswer:
+    """What a question typed in one line states, and what of it is not read."""
+    return JsonAnswer(read_asked(body.text, [preset.id for preset in studio.library.list("muscles")]))
 
 
 @curves_router.post(

@@ -25,6 +25,12 @@ from mckibben.documents.strict import Strict
 _DEFAULT_PRESSURES = [1e5, 2e5, 3e5, 4e5, 5e5, 6e5]
 
 
+class AskedRequest(Strict):
+    """A question typed in one line."""
+
+    text: str = Field(description="The line.", max_length=300)
+
+
 class CurvesOptions(Strict):
     """Pressures, range and conditions of the curves."""
 
@@ -47,6 +53,13 @@ class CurvesOptions(Strict):
     fixed_length: Length | None = Field(None, description="Fixed length, for force over pressure.")
     further_stiffness: bool = Field(
         False, description="Also the stiffness that the force implies, and the secant stiffness."
+    )
+    at_pressure: Pressure | None = Field(
+        None,
+        description="Gauge pressure at which the load is asked about: how far it is lifted, how stiffly.",
+    )
+    at_contraction: Contraction | None = Field(
+        None, description="The contraction whose pressure is asked for, under the load."
     )
 
 

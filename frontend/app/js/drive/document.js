@@ -216,10 +216,6 @@ export function arrangementOf(load) {
   return near(angle, UPRIGHT) ? "hanging" : near(angle, 0) ? "horizontal" : "inclined";
 }
 
-/** The inclination of the direction of motion against the horizontal [rad]. @param {Drive | undefined} load */
-export const inclinationOf = (load) =>
-  siNumber(load?.inclination) ?? INCLINED[arrangementOf(load)] ?? UPRIGHT;
-
 /** The load with the name of its arrangement, so that moving a slider does not change the arrangement.
  * @param {Drive} load */
 export function withArrangement(load) {

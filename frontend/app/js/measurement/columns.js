@@ -4,6 +4,7 @@ import { h, icon } from "../dom.js";
 import { brief, quantityOf, readable, scaleOf, toShown } from "../format.js";
 import { units } from "../state.js";
 import { channelOf, choiceOf, withColumns } from "./choices.js";
+import { segments } from "../ui/segments.js";
 
 /** @typedef {import("./types.js").Preview} Preview */
 /** @typedef {import("./types.js").Column} Column */
@@ -131,18 +132,11 @@ const choiceRow = (label, options, note) =>
     "div",
     { class: "counting" },
     h("span", { "aria-hidden": "true" }, label),
-    h(
-      "div",
-      { class: "segments", role: "radiogroup", "aria-label": label },
-      ...options.map(([text, checked, choose]) =>
-        h("button", {
-          type: "button",
-          role: "radio",
-          "aria-checked": String(checked),
-          "data-key": `${label} ${text}`,
-          onclick: choose,
-        }, text)
-      ),
+    segments(
+      label,
+      options.map(([text]) => [text, text]),
+      () => options.find(([, checked]) => checked)?.[0] ?? null,
+      (text) => options.find(([each]) => each === text)?.[2](),
     ),
     note,
   );

@@ -1,24 +1,23 @@
 // @ts-check
-// The effects card: every effect of the server's catalogue by family, each with a switch and its parameters.
-import { h, icon, mathml } from "../dom.js";
-import { computed, signal } from "../reactive.js";
-import { commit, preview, units } from "../state.js";
+// The effects of a model in one sentence: a chip for each that is on, with its values; all others are a search away.
+import { each, h, icon, mathml } from "../dom.js";
+import { computed } from "../reactive.js";
+import { commit, preview, units, view } from "../state.js";
 import { design, editDesign, patchDesign } from "./document.js";
-import { effects } from "../store.js";
+import { effects, effectsById } from "../store.js";
 import { capitalized, number, plainScale, quantityOf, readable, scaleOf, toShown } from "../format.js";
 import { quantityField } from "../ui/field.js";
 import { openPopover } from "../ui/dialog.js";
+import { openPalette } from "../ui/palette.js";
 
 /** @typedef {import("../types.js").Effect} Effect */
 /** @typedef {import("../types.js").Parameter} Parameter */
 /** @typedef {Record<string, Record<string, number>>} Chosen */
-/** The card of one view. `preset`: the effects that come with muscle, valve and tube; `active`: those that are on;
- * `search`: what is typed into the search field; `count`: how many are on; `families`: the effects by heading;
- * `defaults`: those that depend on the size of the muscle, as the server answered them.
- * @typedef {{preset: Signal<Chosen>, active: Signal<Chosen>, search: Signal<string>, count: () => number,
- *   defaults: () => Chosen | undefined,
- *   message: (key: string) => string | null, families: (all: Effect[]) => Map<string, Effect[]>,
- *   hints?: Record<string, string>}} Panel */
+/** The effects of one view. `preset`: those that come with muscle, valve and tube; `active`: those that are on;
+ * `defaults`: values that depend on the size of the muscle, as the server answered them; `idle`: why an effect changes
+ * nothing that the view shows.
+ * @typedef {{preset: Signal<Chosen>, active: Signal<Chosen>, defaults: () => Chosen | undefined,
+ *   message: (key: string) => string | null, idle?: (e: Effect) => string | null}} Panel */
 /** @template T @typedef {import("../reactive.js").Signal<T>} Signal */
 
 /** The value of the preset, else the default of the effect for this muscle.
@@ -69,14 +68,27 @@ function parameterField(c, e, p) {
   });
 }
 
-/** The first parameters in one line, for an effect that is collapsed. @param {Panel} c @param {Effect} e */
-function summary(c, e) {
-  return e.parameters.slice(0, 3).flatMap((p, i) => {
-    const quantity = quantityOf(p.unit, p.name);
-    const s = quantity ? scaleOf(quantity, units.value) : plainScale(p.unit);
-    const value = ` = ${number(toShown(valueOf(c, e, p), s), s.digits)} ${s.unit}`.trimEnd();
-    return [i ? ", " : "", h("span", { class: "pair" }, mathml(p.symbol_mathml), value)];
-  });
+/** @param {Parameter} p @param {number} si */
+function valueText(p, si) {
+  const quantity = quantityOf(p.unit, p.name);
+  const s = quantity ? scaleOf(quantity, units.value) : plainScale(p.unit);
+  return `${number(toShown(si, s), s.digits)} ${s.unit}`.trimEnd();
+}
+
+/** The rows of effects, by view. @type {Map<string, Panel>} */
+const panels = new Map();
+
+/** What the search adds in this view: the effects that are not on. @returns {import("../ui/palette.js").Command[]} */
+export function effectsToAdd() {
+  const panel = panels.get(view.peek());
+  return panel
+    ? effects.peek().filter((e) => !(e.id in panel.active.peek())).map((e) => ({
+      label: e.title,
+      kind: `add effect · ${e.family}`,
+      also: e.cause,
+      run: () => turn(panel, e, true),
+    }))
+    : [];
 }
 
 /** A button that opens the description of an effect. @param {Effect} e */
@@ -95,151 +107,101 @@ export function aboutButton(e) {
 }
 
 /** @param {Panel} c @param {Effect} e */
-function row(c, e) {
-  const on = computed(() => e.id in c.active.value);
-  const open = signal(false);
-  const matches = () => {
-    const words = c.search.value.trim().toLowerCase();
-    return !words || [e.title, e.family, e.cause, e.id].some((text) => text.toLowerCase().includes(words));
-  };
-  const body = () => {
-    if (!on.value || !e.parameters.length) return null;
-    if (open.value) {
-      return h(
-        "div",
-        { class: "parameters" },
-        ...e.parameters.map((p) => parameterField(c, e, p)),
-      );
-    }
-    return h("button", {
-      type: "button",
-      class: "summary",
-      title: "Change the parameters",
-      onclick: () => (open.value = true),
-    }, () => summary(c, e));
-  };
-  return h(
-    "li",
-    { class: () => `effect${on.value ? " on" : ""}`, hidden: () => !matches(), "data-effect": e.id },
-    h(
-      "div",
-      { class: "effect-head" },
-      h(
-        "label",
-        { class: "switch" },
-        h("input", {
-          type: "checkbox",
-          role: "switch",
-          checked: () => on.value,
-          onchange: (/** @type {Event} */ event) => {
-            const want = /** @type {HTMLInputElement} */ (event.target).checked;
-            open.value = want;
-            turn(c, e, want);
-          },
-        }),
-        h("span", null, e.title),
-      ),
-      () =>
-        on.value && e.parameters.length
-          ? h("button", {
-            type: "button",
-            class: `mini fold${open.value ? " up" : ""}`,
-            "aria-label": `Parameters of ${e.title}`,
-            "aria-expanded": String(open.value),
-            onclick: () => (open.value = !open.peek()),
-          }, icon("down"))
-          : null,
-      aboutButton(e),
-    ),
-    body,
-    () => {
-      const text = c.message(e.id);
-      return text && !e.parameters.some((p) => c.message(`${e.id}.${p.name}`))
-        ? h("p", { class: "error" }, text)
-        : null;
-    },
-  );
+function details(c, e) {
+  const idle = c.idle?.(e);
+  return [
+    h("div", { class: "card-head" }, h("h3", null, e.title), aboutButton(e)),
+    h("p", { class: "muted" }, e.cause),
+    idle ? h("p", { class: "hint" }, idle) : null,
+    ...e.parameters.map((p) => parameterField(c, e, p)),
+  ];
 }
 
-/** A family is open while one of its effects is on, unless the user opens or closes it.
- * @param {Panel} c @param {string} family @param {Effect[]} list */
-function group(c, family, list) {
-  const count = computed(() => list.filter((e) => e.id in c.active.value).length);
-  const folded = signal(/** @type {boolean | null} */ (null));
-  const open = () => c.search.value.trim() !== "" || !(folded.value ?? count.value === 0);
-  const box = h(
-    "details",
-    { class: "family", open, onchange: () => (folded.value = false) },
-    h(
-      "summary",
-      {
-        onclick: (/** @type {Event} */ event) => {
-          event.preventDefault();
-          folded.value = box.open;
-        },
-      },
-      h("span", null, family),
-      h("small", null, () => `${count.value} of ${list.length}`),
-    ),
-    c.hints?.[family] ? h("p", { class: "hint" }, c.hints[family]) : null,
-    h("ul", null, ...list.map((e) => row(c, e))),
+/** An effect that is on: its name and first value open what is set, the cross switches it off.
+ * @param {Panel} c @param {Effect} e */
+function chip(c, e) {
+  const wrong = () =>
+    c.message(e.id) ?? e.parameters.map((p) => c.message(`${e.id}.${p.name}`)).find(Boolean) ?? null;
+  const first = e.parameters[0], name = e.title.replace(/ \(.*\)$/, "");
+  const value = () => first ? ` ${valueText(first, valueOf(c, e, first))}` : "";
+  const open = h(
+    "button",
+    {
+      type: "button",
+      class: "link",
+      title: () => wrong() ?? `${e.cause} ${c.idle?.(e) ?? ""}`.trim(),
+      "aria-expanded": "false",
+      onclick: () => openPopover(open, e.title, () => details(c, e), { kind: "effect-values" }),
+    },
+    h("span", null, name),
+    h("small", null, value),
   );
-  return box;
+  return h(
+    "li",
+    {
+      class: () => `chip effect on${wrong() ? " over" : ""}${c.idle?.(e) ? " idle" : ""}`,
+      "data-effect": e.id,
+    },
+    open,
+    h(
+      "button",
+      { type: "button", "aria-label": `Remove ${e.title}`, onclick: () => turn(c, e, false) },
+      icon("close"),
+    ),
+  );
 }
 
 /** Whether the effect changes static curves. @param {Effect} e */
 export const isStatic = (e) => e.kinds.some((kind) => kind === "static" || kind === "diameter");
 
-/** @param {Omit<Panel, "search">} panel */
-export function effectsCard(panel) {
-  /** @type {Panel} */
-  const c = { ...panel, search: signal("") };
+/** @param {string} of view @param {Panel} c */
+export function effectsRow(of, c) {
+  panels.set(of, c);
   const hasPreset = () => Object.keys(c.preset.value).length > 0;
+  const on = computed(() =>
+    Object.keys(c.active.value).map((id) => effectsById.value.get(id)).filter((e) => e !== undefined)
+  );
   return h(
     "section",
-    { class: "card", "aria-label": "Effects" },
-    h(
-      "div",
-      { class: "card-head" },
-      h("h2", null, "Effects"),
-      h("span", { class: "muted whole" }, () => {
-        const n = c.count();
-        return n ? `${n} on` : "";
-      }),
-      h(
-        "span",
-        { class: "group" },
-        h("button", {
-          type: "button",
-          title: "Switch all effects off: the ideal braid",
-          "aria-pressed": () => String(Object.keys(c.active.value).length === 0),
-          onclick: () => choose({}, "ideal model"),
-        }, "Ideal"),
-        h("button", {
-          type: "button",
-          title: "The effects that come with the preset",
-          disabled: () => !hasPreset(),
-          "aria-pressed": () => String(design.value.effects === null && hasPreset()),
-          onclick: () => editDesign({ effects: null }, "the preset’s effects"),
-        }, "Preset’s effects"),
-      ),
+    { class: "card effects-row", "aria-label": "Effects" },
+    h("h2", null, () => on.value.length ? "The model holds" : "The model is the ideal braid"),
+    each(
+      "ul",
+      { class: "chips", "aria-label": "Effects that are on" },
+      () => on.value,
+      ({ id }) => id,
+      (e) => chip(c, e),
     ),
     h(
-      "label",
-      { class: "search" },
-      icon("search"),
-      h("input", {
-        type: "search",
-        placeholder: "Search effects  ( / )",
-        "aria-label": "Search effects",
-        oninput: (
-          /** @type {Event} */ e,
-        ) => (c.search.value = /** @type {HTMLInputElement} */ (e.target).value),
-      }),
+      "button",
+      {
+        type: "button",
+        class: "add-effect",
+        title: "Add an effect, by its name or its cause",
+        disabled: () => !effects.value.length,
+        onclick: () => openPalette(effectsToAdd(), "Add an effect"),
+      },
+      icon("plus"),
+      "Add ",
+      h("kbd", null, "Ctrl K"),
     ),
-    () =>
-      effects.value.length
-        ? [...c.families(effects.value)].map(([family, list]) => group(c, family, list))
-        : h("p", { class: "muted" }, "Loading the catalogue of effects…"),
+    h("button", {
+      type: "button",
+      class: "link",
+      title: "Switch all effects off: the ideal braid",
+      disabled: () => !on.value.length,
+      onclick: () => choose({}, "ideal model"),
+    }, "Ideal"),
+    h("button", {
+      type: "button",
+      class: "link",
+      title: "The effects that come with the preset",
+      hidden: () => !hasPreset() || design.value.effects === null,
+      onclick: () => editDesign({ effects: null }, "the preset’s effects"),
+    }, "Preset’s effects"),
+    () => {
+      const said = on.value.flatMap((e) => c.message(e.id) ?? []);
+      return said.length ? h("p", { class: "error" }, said.join(" ")) : null;
+    },
   );
 }

@@ -50,7 +50,8 @@ const COLUMN_OF = {
   stiffness_secant: "secant, ",
 };
 
-/** @param {View} v @param {Palette} p @param {keyof typeof COLUMN_OF} what
+/** @typedef {keyof typeof COLUMN_OF} Family */
+/** @param {View} v @param {Palette} p @param {Family} what
  * @param {Quantity} quantity
  * @param {string} [dash] @returns {Trace[]} */
 export function curveFamily(v, p, what, quantity, dash) {
@@ -62,7 +63,11 @@ export function curveFamily(v, p, what, quantity, dash) {
     id: `${what}${i}`,
     x,
     y: shown(row.map((y, k) => slack(i, k) ? null : y), quantity, v.system),
-    line: { color: pressureColour(shareOf(v.curves.pressure[i], v.curves), p), width: dash ? 1.5 : 2, dash },
+    line: {
+      color: pressureColour(shareOf(v.curves.pressure[i], v.curves), p),
+      width: dash ? 1.5 : v.curves.lift?.pressure === v.curves.pressure[i] ? 3 : v.curves.lift ? 1.5 : 2,
+      dash,
+    },
     column: `${COLUMN_OF[what]}${pressureName(v, v.curves.pressure[i])}`,
   }));
 }
@@ -186,5 +191,6 @@ function lineLabel(t, i, v, range, fromRight) {
   });
   const y = t.y[best], x = t.x[best];
   if (y == null || x == null || y <= 0) return null;
-  return { text: pressureName(v, v.curves.pressure[i]), x, y, color: t.line?.color ?? "" };
+  const along = t.x.map((at, k) => /** @type {const} */ ([at, t.y[k]]));
+  return { text: pressureName(v, v.curves.pressure[i]), x, y, color: t.line?.color ?? "", along };
 }

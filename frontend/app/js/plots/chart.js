@@ -6,7 +6,8 @@ import { plotly } from "./library.js";
 
 /** @typedef {import("./theme.js").Palette} Palette */
 /** `marks`: where it has marks, with their texts, instead of round numbers.
- * @typedef {{title: string, range: [number, number], right?: boolean,
+ * `bare`: without its numbers, which stand below the last of several plots.
+ * @typedef {{title: string, range: [number, number], right?: boolean, bare?: boolean,
  *   marks?: {at: number, text: string}[]}} Axis */
 /** A line or a set of points. `axis: 2` draws against the right axis; `column` is its name in the table.
  * @typedef {{id: string, x: (number | null)[], y: (number | null)[], line?: {color: string, width?: number,
@@ -14,8 +15,9 @@ import { plotly } from "./library.js";
  *   edge?: string}, axis?: 2, column?: string}} Trace */
 /** `above`: its name stands above or below it, because points fill it.
  * @typedef {{x: [number, number] | null, y: [number, number] | null, text: string, above?: boolean}} Zone */
-/** `end`: the other end of the line. @typedef {{text: string, x: number, y: number, color: string,
- *   end?: {x: number, y: number}}} Label */
+/** `end`: the other end of the line; `along`: its points, where the name may go too.
+ * @typedef {{text: string, x: number, y: number, color: string, end?: {x: number, y: number},
+ *   along?: (readonly [number | null | undefined, number | null | undefined])[]}} Label */
 /** A shaded range of x; `kind` is its CSS class. @typedef {{x: [number, number], kind: string}} Band */
 /** What both axes show, in shown units. @typedef {{x: [number, number], y: [number, number]}} Ranges */
 /** `room`: width at the right for names of the lines; `level`: the load line; `marks`: vertical lines; `brush`: dragging chooses a range of x, null: all of it;
@@ -29,9 +31,9 @@ import { plotly } from "./library.js";
 
 const SETTLE_MS = 300;
 
-/** @param {Axis} axis @param {Palette} p */
-const axisLayout = (axis, p) => ({
-  title: { text: axis.title, font: { size: 12, color: p.soft }, standoff: 8 },
+/** @param {Axis} axis @param {Palette} p @param {boolean} [small] */
+const axisLayout = (axis, p, small) => ({
+  title: { text: small ? "" : axis.title, font: { size: 12, color: p.soft }, standoff: 8 },
   range: axis.range,
   gridcolor: p.grid,
   linecolor: p.line,
@@ -41,7 +43,7 @@ const axisLayout = (axis, p) => ({
   showline: true,
   zeroline: axis.range[0] < 0 && !axis.right,
   zerolinecolor: p.line,
-  nticks: 7,
+  nticks: small ? 5 : 7,
   ...(axis.marks
     ? {
       tickmode: "array",
@@ -51,11 +53,13 @@ const axisLayout = (axis, p) => ({
     : { tickmode: "auto" }),
   tickfont: { color: p.soft },
   automargin: false,
+  showticklabels: !axis.bare,
   showgrid: !axis.right,
 });
 
 /** Plotly's data and layout of a specification.
- * @param {Spec} spec @param {Palette} p @param {{width: number, height: number, font: string}} box */
+ * @param {Spec} spec @param {Palette} p @param {{width: number, height: number, font: string, small?: boolean}} box
+ * `small`: a strip, whose head says what its axes are */
 export function figure(spec, p, box) {
   const data = spec.traces.map((t) => {
     const common = { uid: t.id, x: t.x, y: t.y, yaxis: t.axis === 2 ? "y2" : "y", type: "scatter" };
@@ -74,7 +78,9 @@ export function figure(spec, p, box) {
   const layout = {
     width: box.width,
     height: box.height,
-    margin: { l: 58, r: spec.y2 ? 54 : spec.room ?? 14, t: 10, b: 44 },
+    margin: box.small
+      ? { l: 44, r: spec.y2 ? 34 : spec.room ?? 8, t: 6, b: spec.x.bare ? 5 : 20 }
+      : { l: 58, r: spec.y2 ? 54 : spec.room ?? 14, t: 10, b: 44 },
     paper_bgcolor: "rgba(0,0,0,0)",
     plot_bgcolor: "rgba(0,0,0,0)",
     font: { family: box.font, size: 12, color: p.ink },
@@ -82,9 +88,9 @@ export function figure(spec, p, box) {
     hovermode: false,
     dragmode: matchMedia("(pointer: coarse)").matches ? false : "zoom",
     uirevision: spec.revision,
-    xaxis: axisLayout(spec.x, p),
-    yaxis: { ...axisLayout(spec.y, p), fixedrange: Boolean(spec.brush) },
-    ...(spec.y2 ? { yaxis2: { ...axisLayout(spec.y2, p), overlaying: "y", side: "right" } } : {}),
+    xaxis: axisLayout(spec.x, p, box.small),
+    yaxis: { ...axisLayout(spec.y, p, box.small), fixedrange: Boolean(spec.brush) },
+    ...(spec.y2 ? { yaxis2: { ...axisLayout(spec.y2, p, box.small), overlaying: "y", side: "right" } } : {}),
     shapes: spec.zones.map((z) => ({
       type: "rect",
       layer: "below",
@@ -110,8 +116,10 @@ const signature = ({ data, layout }) =>
 const whenIdle = (fn) => "requestIdleCallback" in globalThis ? requestIdleCallback(fn) : setTimeout(fn);
 
 export class Chart {
-  /** @param {HTMLElement} host the element that becomes the plot @param {string} name used in file names */
-  constructor(host, name) {
+  /** @param {HTMLElement} host the element that becomes the plot @param {string} name used in file names
+   * @param {boolean} [small] */
+  constructor(host, name, small = false) {
+    this.small = small;
     this.host = host;
     this.name = name;
     /** @type {((p: Palette) => Spec) | null} */
@@ -151,7 +159,7 @@ export class Chart {
     if (!this.build || !plotly() || width < 60 || height < 60) return;
     this.spec = this.build(palette.peek());
     const font = "Inter, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif";
-    const fig = figure(this.spec, palette.peek(), { width, height, font });
+    const fig = figure(this.spec, palette.peek(), { width, height, font, small: this.small });
     const now = signature(fig);
     clearTimeout(this.settle);
     this.newest = fig;

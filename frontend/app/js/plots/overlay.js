@@ -100,15 +100,18 @@ export function dragLine(chart, o) {
   return place;
 }
 
-const CLEAR_PX = 15, NAME_PX = 13, SHIFT_PX = 20;
-/** Letters of a name, its height, and how many points it may cover. */
-const LETTER_PX = 6.6, HIGH_PX = 16, MOST_COVERED = 2;
-/** Distance of the places at which a line is looked at [px], and the share of a name that lines may run through. */
-const STROKE_PX = 4, MOST_STRUCK = 0.4;
+const CLEAR_PX = 15, NAME_PX = 13;
+/** Letters of a name, and its height. */
+const LETTER_PX = 6.6, HIGH_PX = 16;
+/** What it costs to lie over another name, beside 1 for each point that is covered. */
+const OVER_COST = 100;
+/** Number of lines from which on a name that costs so much is left out. */
+const CROWD = 12, MOST_COST = 3;
+/** Distance of the places at which a line is looked at [px]. */
+const STROKE_PX = 4;
 
-/** Writes the name of each line beside its start or end, and the name of each shaded zone into it. A name that would
- * lie over another one, far from its line, along a line or over a crowd of points is left out; the highest and the
- * lowest stay.
+/** Writes the name of each line beside it, and the name of each shaded zone into it. A name that would lie over
+ * another one, along a line or over a crowd of points moves along its line.
  * @param {Chart} chart */
 export function writeLabels(chart) {
   const box = h("div", { class: "labels" });
@@ -118,6 +121,7 @@ export function writeLabels(chart) {
     if (!axes || !chart.spec) return;
     const lines = [...chart.spec.labels ?? []].map((label) => ({
       ...label,
+      along: label.along ?? alongOf(chart.spec, label),
       px: axes.xaxis.c2p(label.x),
       py: axes.yaxis.c2p(label.y),
     })).filter(({ px, py }) => px >= 0 && px <= axes.xaxis._length && py >= 0 && py <= axes.yaxis._length)
@@ -132,29 +136,33 @@ export function writeLabels(chart) {
   });
 }
 
+/** The points of the line that a name belongs to. @param {import("./chart.js").Spec | null} spec
+ * @param {import("./chart.js").Label} label */
+function alongOf(spec, { x, y }) {
+  const line = spec?.traces.find((t) => !t.marker && t.x.some((at, k) => at === x && t.y[k] === y));
+  return line?.x.map((at, k) => /** @type {const} */ ([at, line.y[k]]));
+}
+
 /** @typedef {import("./chart.js").Label & {px: number, py: number}} PlacedLabel */
 
 /** @param {PlacedLabel} label */
 const nameOf = ({ text, color }) => h("span", { style: `color:${color}` }, text);
 
-/** Names right of the axes, moved down as far as they would touch. @param {PlacedLabel[]} lines from the top
+/** Names right of the axes, moved apart as far as they would touch. @param {PlacedLabel[]} lines from the top
  * @param {any} axes */
 function besideAxis(lines, axes) {
-  /** @type {HTMLElement[]} */
-  const nodes = [];
-  let above = -Infinity;
-  const last = lines.at(-1);
-  for (const line of lines) {
-    const at = Math.max(line.py, above + NAME_PX);
-    const isCrowded = at - line.py > SHIFT_PX || (last && line !== last && at > last.py - NAME_PX);
-    if (isCrowded && line !== last) continue;
-    above = at;
-    nodes.push(place(nameOf(line), axes, axes.xaxis._length + 4, at - 8));
+  const step = Math.min(NAME_PX, (axes.yaxis._length + NAME_PX) / Math.max(1, lines.length));
+  const tops = lines.map(({ py }) => py);
+  for (let i = 1; i < tops.length; i++) tops[i] = Math.max(tops[i], tops[i - 1] + step);
+  let floor = axes.yaxis._length + step / 2;
+  for (let i = tops.length - 1; i >= 0; i--) {
+    tops[i] = Math.min(tops[i], floor);
+    floor = tops[i] - step;
   }
-  return nodes;
+  return lines.map((line, i) => place(nameOf(line), axes, axes.xaxis._length + 4, tops[i] - 8));
 }
 
-/** Names over the plot, where they cover fewest points: behind the end of a line, above or below it.
+/** Names over the plot, where they cover least: behind the end of a line, above or below it, or further along it.
  * @param {PlacedLabel[]} lines from the top @param {any} axes @param {[number, number][]} points
  * @param {[number, number][]} strokes places on the lines @param {number} room right of the axes [px] */
 function overPlot(lines, axes, points, strokes, room) {
@@ -163,32 +171,43 @@ function overPlot(lines, axes, points, strokes, room) {
   const nodes = [];
   /** Left, top and width of the names that stand. @type {[number, number, number][]} */
   const taken = [];
-  for (const [i, line] of lines.entries()) {
+  for (const line of lines) {
     const wide = 6 + LETTER_PX * line.text.length;
     const inner = line.px > 0.5 * width ? line.px - 4 - wide : line.px + 4;
     const end = line.end && [axes.xaxis.c2p(line.end.x), axes.yaxis.c2p(line.end.y)];
+    const every = Math.max(1, Math.round((line.along?.length ?? 0) / 12));
+    const further = (line.along ?? []).filter(([x, y], k) => k % every === 0 && x != null && y != null)
+      .flatMap(([x, y]) => {
+        const px = axes.xaxis.c2p(x), py = axes.yaxis.c2p(y);
+        return [[px - wide / 2, py - 19], [px - wide / 2, py + 3]];
+      });
     const places = [
       ...(end ? [[end[0] + 6, end[1] - 0.5 * HIGH_PX], [end[0] - wide, end[1] - 19]] : []),
       [inner, Math.max(0, line.py - 18)],
       [inner, line.py + 3],
-    ].filter(([left, top]) =>
-      left >= 0 && left + wide <= width + room && top >= 0 && top + HIGH_PX <= height &&
-      taken.every(([x, y, w]) => left >= x + w || left + wide <= x || Math.abs(top - y) >= CLEAR_PX)
-    );
-    const counts = places.map(([left, top]) =>
-      points.filter(([x, y]) => x > left - 3 && x < left + wide + 3 && y > top - 2 && y < top + HIGH_PX + 2)
-        .length
-    );
-    const struck = places.map(([left, top]) =>
-      strokes.filter(([x, y]) => x > left && x < left + wide && y > top + 3 && y < top + HIGH_PX - 3).length *
-      STROKE_PX / wide
-    );
-    const isOuter = i === 0 || i === lines.length - 1;
-    const fit = places.map((_, k) => k).filter((k) => counts[k] <= MOST_COVERED && struck[k] <= MOST_STRUCK);
-    const from = fit.length ? fit : isOuter ? places.map((_, k) => k) : [];
-    if (!from.length) continue;
-    const [left, top] =
-      places[from.reduce((a, b) => (counts[b] + struck[b] < counts[a] + struck[a] ? b : a))];
+      ...further,
+    ].map(([left, top]) => [
+      Math.min(Math.max(0, left), width + room - wide),
+      Math.min(Math.max(0, top), height - HIGH_PX),
+    ]);
+    const costs = places.map(([left, top], k) => {
+      const over = taken.filter(([x, y, w]) =>
+        left < x + w && left + wide > x && Math.abs(top - y) < CLEAR_PX
+      ).length;
+      const covered = points.filter(([x, y]) =>
+        x > left - 3 && x < left + wide + 3 && y > top - 2 && y < top + HIGH_PX + 2
+      ).length;
+      const struck = strokes.filter(([x, y]) =>
+        x > left && x < left + wide && y > top + 3 && y < top + HIGH_PX - 3
+      ).length * STROKE_PX / wide;
+      const moved = k < (end ? 4 : 2) ? 0.4 * k : 1.5; // it stays at the end of its line unless that costs more
+      return OVER_COST * over + covered + 2 * struck + moved;
+    });
+    const least = Math.min(...costs);
+    // Two names in one place are worse than one, and in a crowd of lines so is a name that they run through.
+    const most = lines.length > CROWD ? MOST_COST : OVER_COST;
+    if (least >= most && line !== lines[0] && line !== lines.at(-1)) continue;
+    const [left, top] = places[costs.indexOf(least)];
     taken.push([left, top, wide]);
     nodes.push(place(nameOf(line), axes, left, top));
   }

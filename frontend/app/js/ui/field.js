@@ -8,13 +8,14 @@ import { niceStep, number, parse, toShown, toSi } from "../format.js";
 /** @typedef {{
  *   key: string, label: string, symbol?: import("../dom.js").Child,
  *   quantity: import("../format.js").Quantity | null,
- *   scale: () => Scale, get: () => number | null, put: (si: number, done: boolean) => void,
+ *   scale: () => Scale, get: () => number | null, put: (si: number, done: boolean, typed?: string) => void,
  *   bounds?: () => [number, number], strict?: boolean, log?: boolean, slider?: boolean,
  *   changed?: () => boolean, reset?: () => void, message?: () => string | null, hint?: string,
- *   clear?: () => void, empty?: string,
+ *   clear?: () => void, empty?: string, reads?: (text: string) => {value: number} | null, weighs?: boolean, also?: () => string,
  *   counted?: () => import("../quantities.js").Counted}} FieldOptions  `bounds` in SI: the range of the slider,
  *   and with `strict` of accepted values; `clear` allows an empty field, which then shows `empty`; `counted`: what a
- *   typed pressure may be counted from */
+ *   typed pressure may be counted from; `reads`: what else
+ *   may be typed; `weighs`: a mass is read as its weight; `also`: what stands behind the unit */
 
 /** A symbol with its subscript: "p_s". @param {string} symbol */
 export const subscript = (symbol) => {
@@ -60,9 +61,10 @@ export function quantityField(o) {
     return si == null ? "" : number(toShown(si, o.scale()), o.scale().digits);
   };
 
-  /** @param {string} text @returns {{value: number} | {error: string}} */
+  /** @param {string} text @returns {ReturnType<typeof parse>} */
   const read = (text) => {
-    const got = parse(text, o.scale(), o.quantity, shown(), o.counted?.());
+    const got = o.reads?.(text) ??
+      parse(text, o.scale(), o.quantity, shown(), { ...o.counted?.(), weighs: o.weighs });
     if ("error" in got || !o.strict || !o.bounds) return got;
     const [low, high] = o.bounds(), slack = 1e-9 * Math.max(Math.abs(low), Math.abs(high));
     if (got.value >= low - slack && got.value <= high + slack) return got;
@@ -79,7 +81,7 @@ export function quantityField(o) {
     const got = read(input.value);
     typed.value = "error" in got ? got.error : null;
     if ("value" in got) {
-      o.put(got.value, true);
+      o.put(got.value, true, got.kind);
       input.value = shown();
     }
   };
@@ -103,7 +105,7 @@ export function quantityField(o) {
     placeholder: o.empty,
     "aria-invalid": () => message.value ? "true" : null,
     "aria-describedby": () => message.value ? `${id}-m` : null,
-    title: "A number, or a number with a unit",
+    title: "A number, with or without a unit, or an expression: 20*9.81",
     onchange: take,
     onkeydown: (/** @type {KeyboardEvent} */ e) => {
       if (e.key === "Escape") {
@@ -111,9 +113,10 @@ export function quantityField(o) {
         input.value = shown();
       }
       if (e.key === "Enter") take();
-      if (e.key !== "ArrowUp" && e.key !== "ArrowDown") return;
+      const by = { ArrowUp: 1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[e.key];
+      if (!by) return;
       e.preventDefault();
-      step((e.key === "ArrowUp" ? 1 : -1) * (e.shiftKey ? 10 : 1));
+      step(by * (e.shiftKey ? 10 : 1));
     },
   });
   let last = "";
@@ -152,7 +155,12 @@ export function quantityField(o) {
             onclick: o.reset,
           }, icon("reset"))
           : null,
-      h("span", { class: "entry" }, input, h("span", { class: "unit" }, () => o.scale().unit)),
+      h(
+        "span",
+        { class: "entry" },
+        input,
+        h("span", { class: "unit" }, () => `${o.scale().unit}${o.also?.() ?? ""}`),
+      ),
     ),
     o.slider === false ? null : slider(o, rail, step),
     o.hint ? h("p", { class: "hint" }, o.hint) : null,
@@ -166,6 +174,7 @@ function slider(o, rail, step) {
   const place = (/** @type {number} */ i) => rail.peek()?.value(i) ?? 0;
   const range = h("input", {
     type: "range",
+    tabindex: -1, // the keys of the number beside it do the same
     min: 0,
     step: "any",
     "aria-label": `${o.label} slider`,
@@ -197,6 +206,7 @@ function slider(o, rail, step) {
     h("button", {
       type: "button",
       class: "mini",
+      tabindex: -1,
       "aria-label": `${o.label} ${by < 0 ? "less" : "more"}`,
       onclick: () => step(by),
     }, icon(by < 0 ? "minus" : "plus"));

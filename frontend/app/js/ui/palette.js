@@ -4,14 +4,14 @@ import { h } from "../dom.js";
 import { effect, signal } from "../reactive.js";
 import { openDialog } from "./dialog.js";
 
-/** @typedef {{label: string, kind: string, note?: string, run: () => unknown}} Command */
+/** `also`: what else it is found by. @typedef {{label: string, kind: string, also?: string, note?: string, run: () => unknown}} Command */
 
 const MOST = 60;
 
 /** How well a name fits what was typed: 0 = not at all. Every word must occur; at the start of a word counts more.
  * @param {Command} command @param {string[]} words */
-function fit({ label, kind }, words) {
-  const name = label.toLowerCase(), text = `${name} ${kind.toLowerCase()}`;
+function fit({ label, kind, also = "" }, words) {
+  const name = label.toLowerCase(), text = `${name} ${kind} ${also}`.toLowerCase();
   let score = 1;
   for (const word of words) {
     if (!text.includes(word)) return 0;
@@ -29,8 +29,8 @@ export function matching(all, typed) {
     .sort((a, b) => b.score - a.score).slice(0, MOST).map(({ command }) => command);
 }
 
-/** @param {Command[]} all */
-export function openPalette(all) {
+/** @param {Command[]} all @param {string} [title] */
+export function openPalette(all, title = "Go to, or add") {
   const typed = signal(""), at = signal(0), shown = signal(all.slice(0, MOST));
   const idOf = (/** @type {number} */ i) => `command-${i}`;
   /** @param {Command | undefined} command */
@@ -79,7 +79,7 @@ export function openPalette(all) {
       ),
   );
   const dialog = openDialog(
-    { title: "Go to" },
+    { title },
     input,
     list,
     h("p", { class: "hint", role: "status" }, () => shown.value.length ? "" : "Nothing has this name."),

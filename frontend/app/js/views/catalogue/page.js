@@ -11,25 +11,13 @@ import { KIND_TITLES } from "./columns.js";
 import { detailPanel } from "./detail.js";
 import { keptCard } from "./kept.js";
 import { filter, partsTable, setFilter } from "./table.js";
+import { segments } from "../../ui/segments.js";
 
 const kind = computed(() => filter.value.kind);
 const makers = computed(() =>
   [...new Set((presets.value[kind.value] ?? []).map((p) => p.maker ?? "").filter(Boolean))].sort()
 );
 
-/** @param {[string, string]} entry */
-const kindButton = ([id, title]) =>
-  h(
-    "button",
-    {
-      type: "button",
-      role: "radio",
-      "aria-checked": () => String(kind.value === id),
-      onclick: () => setFilter({ kind: id, selected: null, maker: "", sort: "title", descending: false }),
-    },
-    title,
-    h("small", null, () => String((id === EFFECTS ? effects.value : presets.value[id])?.length ?? "")),
-  );
 const EFFECTS = "effects";
 const isAtlas = computed(() => kind.value === EFFECTS);
 
@@ -63,12 +51,18 @@ function filterCard() {
     { class: "card", "aria-label": "Filter" },
     h("div", { class: "card-head" }, h("h2", null, "Filter")),
     h("label", { class: "search" }, icon("search"), search),
-    h(
-      "div",
-      { class: "kinds", role: "radiogroup", "aria-label": "Kind of part" },
-      ...[...Object.entries(KIND_TITLES), /** @type {[string, string]} */ ([EFFECTS, "Effects"])].map(
-        kindButton,
-      ),
+    segments(
+      "Kind of part",
+      [...Object.entries(KIND_TITLES), [EFFECTS, "Effects"]].map(([id, title]) => [
+        id,
+        [
+          title,
+          h("small", null, () => String((id === EFFECTS ? effects.value : presets.value[id])?.length ?? "")),
+        ],
+      ]),
+      () => kind.value,
+      (id) => setFilter({ kind: id, selected: null, maker: "", sort: "title", descending: false }),
+      "kinds",
     ),
     h("label", { class: "label", for: "maker", hidden: () => isAtlas.value }, "Maker"),
     h(

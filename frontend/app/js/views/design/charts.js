@@ -9,13 +9,14 @@ import { brief, niceStep, scaleOf, toShown, toSi, withUnit } from "../../format.
 import { Chart } from "../../plots/chart.js";
 import { plotlyReady } from "../../plots/library.js";
 import { dragLine, linkCursor, writeLabels } from "../../plots/overlay.js";
-import { palette, pressureColour } from "../../plots/theme.js";
+import { palette } from "../../plots/theme.js";
 import { menuButton } from "../../ui/menu.js";
-import { curves, curvesAreCurrent, fault, faultField, reference, retry } from "./model.js";
+import { curves, curvesAreCurrent, fault, faultField, loadOf, loadText, reference, retry } from "./model.js";
 import { faultNotice, goToField } from "../../ui/fault.js";
 import { forgetRanges } from "../../plots/axes.js";
-import { ACROSS, atFixedLength, OVER, pressureName, shareOf, STIFFNESS } from "../../muscle/curve-axes.js";
+import { ACROSS, atFixedLength, OVER, STIFFNESS } from "../../muscle/curve-axes.js";
 import { cursor, readout } from "./readout.js";
+import { residualWords, showResiduals } from "./residuals.js";
 
 /** @typedef {import("../../muscle/curve-axes.js").View} View */
 
@@ -39,19 +40,30 @@ const viewNow = () => {
   };
 };
 
-/** @param {string} id @param {string} title @param {string} label */
-function chartCard(id, title, label) {
+/** @param {string} id @param {string} title @param {string} label @param {boolean} [small] */
+function chartCard(id, title, label, small) {
   const host = h("div", { class: "plot", id, role: "figure", "aria-label": label });
-  return { title, chart: new Chart(host, id), host };
+  return { title, chart: new Chart(host, id, small), host };
 }
 
 const force = chartCard("force", "Force", "Force over contraction, one line per pressure, with the load");
-const stiffness = chartCard("stiffness", "Stiffness", "Stiffness over contraction, valve open and closed");
-const volume = chartCard("volume", "Volume and diameter", "Gas volume and braid diameter over contraction");
+const stiffness = chartCard(
+  "stiffness",
+  "Stiffness",
+  "Stiffness over contraction, valve open and closed",
+  true,
+);
+const volume = chartCard(
+  "volume",
+  "Volume and diameter",
+  "Gas volume and braid diameter over contraction",
+  true,
+);
 const over = chartCard(
   "over-pressure",
   "Over pressure",
   "Position or force over pressure, filling and venting",
+  true,
 );
 
 /** All plots with their titles, for the export as one sheet. */
@@ -75,40 +87,14 @@ function frame(card, ...head) {
       }),
     ),
     card.host,
+    card === force
+      ? h("div", { class: "readout", "aria-live": "off" }, () => residualWords() ?? readout(viewNow()))
+      : null,
   );
 }
 
-function pressureLegend() {
-  const answer = curves.value;
-  if (!answer) return null;
-  const v = /** @type {View} */ ({ system: units.value, curves: answer });
-  const colours = palette.value;
-  return h(
-    "ul",
-    { class: "legend" },
-    ...answer.pressure.map((p) =>
-      h(
-        "li",
-        null,
-        h("i", { style: `background:${pressureColour(shareOf(p, answer), colours)}` }),
-        pressureName(v, p).split(" ")[0],
-      )
-    ),
-    h("li", { class: "muted" }, scaleOf("pressure", units.value).unit),
-    reference.value ? h("li", null, h("i", { class: "ring" }), "points") : null,
-  );
-}
-/** The legend changes with the pressures only, not with every answer. */
-const legendKey = computed(() => JSON.stringify([curves.value?.pressure, units.value, reference.value?.id]));
-
-/** @param {string} solid @param {string} dashed @param {boolean} [coloured] */
-const dashLegend = (solid, dashed, coloured) =>
-  h(
-    "ul",
-    { class: "legend" },
-    h("li", null, h("i", { class: coloured ? "first" : "" }), solid),
-    h("li", null, h("i", { class: `dash ${coloured ? "second" : ""}` }), dashed),
-  );
+/** Unit of an axis in the head of a strip. @param {() => import("../../format.js").Quantity} quantity */
+const unitOf = (quantity) => h("span", { class: "muted" }, () => scaleOf(quantity(), units.value).unit);
 
 /** @template {string} T
  * @param {string} label @param {[T, string][]} options @param {() => T} get
@@ -131,10 +117,17 @@ function stateNote() {
   });
 }
 
+/** How many pressures were measured. */
+function pointsText() {
+  const values = new Set(
+    reference.value?.data_columns?.pressure?.values.map((p) => Number(p.toPrecision(2))),
+  );
+  return values.size === 1 ? "1 pressure" : `${values.size} pressures`;
+}
+
 function overHint() {
   const d = design.value;
   const system = units.value;
-  if (!atFixedLength(d.over)) return `at a load of ${withUnit(d.load, "force", system)}`;
   if (d.fixed_length != null) return `at ${withUnit(d.fixed_length, "length", system)}`;
   return h("button", {
     type: "button",
@@ -151,12 +144,15 @@ function loadHandle() {
     label: "Load line in the force plot",
     left: () => across.peek() === "length",
     get: () => toShown(design.peek().load, scale()),
-    text: () => `Load ${brief(toShown(design.peek().load, scale()))} ${scale().unit}`,
+    text: () => {
+      const force = `${brief(toShown(design.peek().load, scale()))} ${scale().unit}`;
+      return `Load ${design.peek().load_as === "mass" ? `${loadText.peek()} = ` : ""}${force}`;
+    },
     step: () => niceStep(Math.abs(force.chart.spec?.y.range[1] ?? 100) / 150),
     set: (value, done) => {
       const grain = niceStep(Math.abs(force.chart.spec?.y.range[1] ?? 100) / 1000);
       preview(patchDesign({ load: toSi(Math.round(value / grain) * grain, scale()) }));
-      if (done) commit("load");
+      if (done) commit("load", loadOf);
     },
   });
 }
@@ -232,9 +228,15 @@ export function chartColumn() {
         () => across.value,
         (key) => editDesign({ across: key }, `plots over ${ACROSS[key].title.toLowerCase()}`),
       ),
-      () => (legendKey.value, pressureLegend()),
+      () =>
+        reference.value
+          ? h(
+            "ul",
+            { class: "legend" },
+            h("li", null, h("i", { class: "ring" }), `measured, ${pointsText()}`),
+          )
+          : null,
     ),
-    h("div", { class: "readout", "aria-live": "off" }, () => readout(viewNow())),
     frame(
       stiffness,
       choice(
@@ -244,12 +246,9 @@ export function chartColumn() {
         (value) => editDesign({ stiffness: value }, "definition of the stiffness"),
         () => STIFFNESS[definition.value].text,
       ),
-      () =>
-        definition.value === "tangent"
-          ? dashLegend("valve open", "closed")
-          : dashLegend(STIFFNESS[definition.value].title, "tangent"),
+      unitOf(() => "stiffness"),
     ),
-    frame(volume, dashLegend("volume", "diameter", true)),
+    frame(volume),
     frame(
       over,
       choice(
@@ -258,13 +257,16 @@ export function chartColumn() {
         () => overWhat.value,
         (value) => look(patchDesign({ over: value })),
       ),
-      h("span", { class: "muted" }, overHint),
-      dashLegend("filling", "venting", true),
+      h("span", { class: "muted" }, () => {
+        const unit = scaleOf(OVER[overWhat.value].quantity, units.value).unit;
+        return `${unit} / ${scaleOf("pressure", units.value).unit}`;
+      }),
+      () => atFixedLength(overWhat.value) ? h("span", { class: "muted" }, overHint) : null,
     ),
   );
   linkCursor([force.chart, stiffness.chart, volume.chart], (x) => (cursor.value = x));
-  writeLabels(force.chart);
-  writeLabels(over.chart);
+  charts.forEach(({ chart }) => writeLabels(chart));
+  showResiduals(force.chart, viewNow);
   const placeLoad = loadHandle();
   effect(() => {
     design.value.load;

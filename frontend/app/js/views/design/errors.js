@@ -39,11 +39,18 @@ function figure(name, c, first, widest) {
     "div",
     { class: `rmse${first ? " first" : ""}` },
     h("span", null, name),
-    h("b", { class: "num" }, withUnit(c.rmse, "force", units.value)),
-    h("span", { class: "num" }, `${brief(c.nrmse_percent ?? NaN)} % of the largest`),
     h("span", { class: "bar" }, h("i", { style: `width:${(100 * (c.rmse ?? 0)) / widest}%` })),
+    h(
+      "b",
+      { class: "num", title: `${brief(c.nrmse_percent ?? NaN)} % of the largest force` },
+      withUnit(c.rmse, "force", units.value),
+    ),
   );
 }
+
+/** The error beside the largest force. @param {Comparison} c */
+const relative = ({ nrmse_percent }) =>
+  h("p", { class: "muted" }, `${brief(nrmse_percent ?? NaN)} % of the largest force`);
 
 function source() {
   const r = reference.value;
@@ -59,24 +66,31 @@ function body() {
   if (errorFault.value) return h("p", { class: "error" }, errorFault.value.words);
   if (!now || !ideal) return h("p", { class: "muted comparing" }, "Comparing…");
   const widest = Math.max(now.rmse ?? 0, ideal.rmse ?? 0, 1e-9);
-  const left = Object.entries(now.excluded).filter(([, n]) => n > 0);
   return [
     figure("This model", now, true, widest),
     figure("Ideal braid", ideal, false, widest),
-    h(
-      "details",
-      null,
-      h("summary", null, `${now.rows_used} of ${now.rows} points used`),
-      h(
-        "ul",
-        { class: "plain muted" },
-        ...left.map(([why, n]) => h("li", null, `Left out: ${n} ${readable(why)}.`)),
-        h("li", null, `Mean residual ${withUnit(now.residual_mean, "force", units.value)}.`),
-        ...now.messages.map((m) => h("li", null, capitalized(m))),
-        source(),
-      ),
-    ),
+    relative(now),
   ];
+}
+
+/** Which points the error is of. */
+export function pointsUsed() {
+  const now = errors.value?.model;
+  if (!reference.value || !now || errorFault.value) return null;
+  const left = Object.entries(now.excluded).filter(([, n]) => n > 0);
+  return h(
+    "details",
+    { class: "notes" },
+    h("summary", null, `${now.rows_used} of ${now.rows} points used`),
+    h(
+      "ul",
+      { class: "plain muted" },
+      ...left.map(([why, n]) => h("li", null, `Left out: ${n} ${readable(why)}.`)),
+      h("li", null, `Mean residual ${withUnit(now.residual_mean, "force", units.value)}.`),
+      ...now.messages.map((m) => h("li", null, capitalized(m))),
+      source(),
+    ),
+  );
 }
 
 /** Points of a muscle of another length do not compare, which the number alone would not show. */
@@ -106,26 +120,15 @@ function lengthNote() {
   );
 }
 
-export function errorCard() {
-  return h(
-    "section",
-    { class: "card", "aria-label": "Model error" },
-    h("div", { class: "card-head" }, h("h2", null, "Model error")),
-    referenceSelect(),
-    h(
-      "div",
-      { class: "found", id: "rmse", "aria-busy": () => String(errorsOutdated.value) },
-      body,
-    ),
-    lengthNote,
-    h(
-      "div",
-      { class: "foot" },
-      h("button", {
-        type: "button",
-        disabled: () => !curves.value || Boolean(fault.value) || !presets.value.muscles,
-        onclick: async () => (await import("./save-preset.js")).saveDialog(),
-      }, "Save as my preset…"),
-    ),
-  );
-}
+export const errorPart = () => [
+  h("div", { class: "card-head" }, h("h2", null, "How sure"), referenceSelect()),
+  h("div", { class: "found", id: "rmse", "aria-busy": () => String(errorsOutdated.value) }, body),
+  lengthNote,
+];
+
+export const saveButton = () =>
+  h("button", {
+    type: "button",
+    disabled: () => !curves.value || Boolean(fault.value) || !presets.value.muscles,
+    onclick: async () => (await import("./save-preset.js")).saveDialog(),
+  }, "Save as my preset…");

@@ -54,9 +54,14 @@ export function exampleNote() {
   if (!shown) return null;
   return h(
     "section",
-    { class: "card", "aria-label": "Example" },
-    h("div", { class: "card-head" }, h("h2", null, shown.title)),
-    h("p", null, shown.description ?? ""),
-    misprintList(shown),
+    { "aria-label": "Example" },
+    h(
+      "details",
+      { class: "notes" },
+      h("summary", { title: shown.title }, "Example"),
+      h("h3", null, shown.title),
+      h("p", null, shown.description ?? ""),
+      misprintList(shown),
+    ),
   );
 }

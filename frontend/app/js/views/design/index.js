@@ -1,32 +1,97 @@
 // @ts-check
-// The muscle side of the Design view: inputs, plots, results.
+// The muscle side of the Design view: fields, answer, plots, effects, tables.
 import { h } from "../../dom.js";
+import { computed } from "../../reactive.js";
+import { edit } from "../../state.js";
 import { presets } from "../../store.js";
+import { answerCard, crossedLimits, margins, modelRemarks } from "./answer.js";
 import { chartColumn } from "./charts.js";
-import { designEffectsCard } from "./effects.js";
-import { errorCard } from "./errors.js";
+import { designEffects } from "./effects.js";
+import { errorPart, pointsUsed, saveButton } from "./errors.js";
 import { exampleNote, openExample } from "./examples.js";
-import { inverseCard } from "./inverse.js";
-import { curvesAreCurrent, fault, startModel } from "./model.js";
-import { muscleCard } from "./muscle.js";
-import { operationCard } from "./operation.js";
-import { resultCards } from "./results.js";
+import { curvesAreCurrent, fault, FORM_KEYS, messageFor, startModel } from "./model.js";
+import { muscleCard, muscleFields } from "./muscle.js";
+import { askedFields, operationCard } from "./operation.js";
+import { tables } from "./tables.js";
+
+export { askLine, muscleWords } from "./ask.js";
+
+/** Whether a field that is folded away has something to say. */
+const isWrongBelow = computed(() =>
+  [
+    ...Object.values(FORM_KEYS).flat(),
+    "inside_diameter",
+    "wall_thickness",
+    "pressures",
+    "temperature",
+    "dead_volume",
+    "fixed_length",
+  ].some((key) => messageFor(key))
+);
+
+/** Puts what a typed line states into the fields. @param {import("../../types.js").S["AskedLine"]} line */
+export function takeAsked({ muscle, nominal_length, pressure, load, mass, contraction, stroke }) {
+  edit((d) => {
+    const { design } = d, other = muscle !== null && muscle !== design.muscle.preset;
+    const values = other ? {} : { ...design.muscle.values };
+    const length = nominal_length ?? design.muscle.values.nominal_length;
+    if (length !== undefined) values.nominal_length = length;
+    const asked = contraction ?? (stroke !== null && length ? stroke / length : null);
+    return {
+      ...d,
+      design: {
+        ...design,
+        muscle: other ? { preset: muscle, form: "braid", values } : { ...design.muscle, values },
+        ...(other ? { effects: null, reference: "auto" } : {}),
+        ...(pressure === null ? {} : { pressure }),
+        ...(load === null ? {} : { load, load_as: mass === null ? "force" : "mass" }),
+        ...(asked === null ? {} : { contraction: asked }),
+      },
+    };
+  }, "asked");
+}
 
 export function designView() {
-  const verdict = resultCards();
+  const isStale = () => fault.value || !curvesAreCurrent.value ? " stale" : "";
   const view = h(
     "div",
     { class: "design" },
-    h("div", { class: "column inputs" }, muscleCard(), operationCard(), designEffectsCard()),
-    chartColumn(),
     h(
       "div",
-      { class: () => `column results${fault.value || !curvesAreCurrent.value ? " stale" : ""}` },
-      errorCard(),
-      exampleNote,
-      ...verdict,
-      inverseCard(),
+      { class: "fields" },
+      // Load and pressure come first: they are what is changed most.
+      askedFields(),
+      muscleFields(),
+      h(
+        "details",
+        { class: "all-inputs", open: () => isWrongBelow.value },
+        h("summary", null, "Geometry, curves, conditions"),
+        h("div", { class: "two" }, muscleCard(), operationCard()),
+        h("div", { class: "foot" }, saveButton()),
+      ),
     ),
+    h(
+      "div",
+      { class: () => `column results${isStale()}` },
+      answerCard(),
+      h(
+        "section",
+        { class: "card sureness", "aria-label": "Limits and error" },
+        margins,
+        crossedLimits,
+        ...errorPart(),
+        h(
+          "div",
+          { class: "folds" },
+          pointsUsed,
+          modelRemarks,
+          exampleNote,
+        ),
+      ),
+    ),
+    chartColumn(),
+    designEffects(),
+    tables(),
   );
   startModel();
   return view;

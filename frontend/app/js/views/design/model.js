@@ -1,12 +1,13 @@
 // @ts-check
 // From the document to the server's answers: curves, errors against points, and which message belongs to
 // which field.
-import { siOf } from "../../format.js";
+import { GRAVITY, number, scaleOf, siOf, toShown, withUnit } from "../../format.js";
 import { design, modelInput, muscleInput } from "../../muscle/document.js";
 import { muscle, preset } from "../../muscle/preset.js";
 import { computed } from "../../reactive.js";
 import { fieldMessages, post } from "../../server/client.js";
 import { Question } from "../../server/question.js";
+import { doc, units } from "../../state.js";
 import { references } from "../../store.js";
 
 /** @typedef {import("../../types.js").Curves} Curves */
@@ -25,10 +26,33 @@ export const FORM_KEYS = {
   rhombus: ["side", "along", "around"],
 };
 
+/** The pressure that is asked about: the stated one, else the highest of the curves. */
+export const pressureNow = computed(() => design.value.pressure ?? Math.max(...design.value.pressures));
+const MOST_CURVES = 12;
+/** The pressures of the curves, that which is asked about among them. */
+export const pressuresShown = computed(() => {
+  const { pressures } = design.value, now = pressureNow.value;
+  if (pressures.includes(now)) return pressures;
+  return [...pressures.slice(0, MOST_CURVES - 1), now].sort((a, b) => a - b);
+});
+/** A load as it was stated, a mass or a force. @param {number} load @param {Design["load_as"]} as
+ * @param {import("../../format.js").System} system */
+function loadIn(load, as, system) {
+  const mass = scaleOf("mass", system);
+  return as === "mass"
+    ? `${number(toShown(load / GRAVITY, mass), 2)}\u00a0${mass.unit}`
+    : withUnit(load, "force", system);
+}
+/** @param {import("../../types.js").Doc} d */
+export const loadOf = ({ units: system, design: { load, load_as } }) => loadIn(load, load_as, system);
+export const loadText = computed(() => (design.value, units.value, loadOf(doc.peek())));
+
 /** @param {Design} d */
 const curvesRequest = (d) => ({
   ...modelInput(d),
-  pressures: d.pressures,
+  pressures: pressuresShown.value,
+  at_pressure: pressureNow.value,
+  at_contraction: d.contraction,
   points: POINTS,
   unclipped: !d.clipped,
   dead_volume: d.dead_volume,
@@ -44,6 +68,11 @@ const curvesQuestion = new Question(
 );
 /** The newest curves, and why there are no newer ones: the plots then keep the last ones, dimmed. */
 export const { answer: curves, error: fault } = curvesQuestion;
+/** The load of the answer on screen: what is said beside its figures. */
+export const answeredLoad = computed(() => {
+  const load = curves.value?.over_pressure?.load;
+  return load == null ? "–" : loadIn(load, design.value.load_as, units.value);
+});
 /** Asks once more, after the server was away. */
 export const retry = () => curvesQuestion.again();
 /** The curves on screen are those of the design now. */
@@ -108,6 +137,7 @@ export function inForm(m, form) {
 function fieldOf(path) {
   const [part, ...rest] = path.split(".");
   if (part === "effects") return rest.join(".");
+  if (part === "at_pressure") return "pressure";
   if (part !== "muscle") return part;
   const key = rest.at(-1) ?? "preset";
   const { form } = muscle.peek();

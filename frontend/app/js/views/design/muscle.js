@@ -6,12 +6,12 @@ import { figure } from "../../facts.js";
 import { commit, preview, units } from "../../state.js";
 import { design, editDesign, patchDesign } from "../../muscle/document.js";
 import { muscles } from "../../store.js";
-import { scaleOf, siOf } from "../../format.js";
+import { scaleOf, siOf, withUnit } from "../../format.js";
 import { quantityField, subscript } from "../../ui/field.js";
 import { unverifiedBadge } from "../../ui/sources.js";
 import { curves, FORM_KEYS, geometryValue, inForm, messageFor, presetValue } from "./model.js";
 import { muscle, preset, usePreset } from "../../muscle/preset.js";
-import { orderCodeField } from "./order-code.js";
+import { segments } from "../../ui/segments.js";
 
 /** @typedef {import("../../types.js").Form} Form */
 /** @typedef {{label: string, symbol: string, quantity: import("../../format.js").Quantity,
@@ -53,7 +53,13 @@ const presetId = computed(() => muscle.value.preset);
 function put(key, si, done) {
   const { muscle: m } = design.peek();
   preview(patchDesign({ muscle: { ...m, values: { ...m.values, [key]: si } } }));
-  if (done) commit(SPECS[key].label.toLowerCase());
+  const { label, quantity } = SPECS[key];
+  if (done) {
+    commit(
+      label.toLowerCase(),
+      (d) => withUnit(d.design.muscle.values[key] ?? presetValue(key), quantity, units.peek()),
+    );
+  }
 }
 
 /** @param {string} key */
@@ -72,8 +78,8 @@ function reset(key) {
   editDesign({ muscle: { ...m, values } }, `reset ${SPECS[key].label.toLowerCase()}`);
 }
 
-/** @param {string} key */
-function field(key) {
+/** @param {string} key @param {boolean} [slider] */
+function field(key, slider) {
   const spec = SPECS[key];
   return quantityField({
     key,
@@ -81,6 +87,7 @@ function field(key) {
     symbol: subscript(spec.symbol),
     quantity: spec.quantity,
     log: spec.log,
+    slider,
     scale: () => scaleOf(spec.quantity, units.value),
     bounds: () => sliderBounds(key, spec),
     get: () => geometryValue(key),
@@ -144,20 +151,9 @@ function presetSelect() {
   };
   return h("select", {
     id: "preset",
-    "aria-label": "Muscle preset",
     onchange: (/** @type {Event} */ e) => choose(/** @type {HTMLSelectElement} */ (e.target).value),
   }, options);
 }
-
-/** @param {[Form, string, string]} one */
-const formButton = ([id, label, title]) =>
-  h("button", {
-    type: "button",
-    role: "radio",
-    title,
-    "aria-checked": () => String(form.value === id),
-    onclick: () => editDesign({ muscle: inForm(design.peek().muscle, id) }, `${label.toLowerCase()} form`),
-  }, label);
 
 function resetAll() {
   const keys = Object.keys(SPECS).filter(isChanged);
@@ -169,28 +165,30 @@ function resetAll() {
   return h("button", { type: "button", class: "link", onclick: back }, `Reset all ${keys.length} changes`);
 }
 
-export function muscleCard() {
-  return h(
+export const muscleCard = () =>
+  h(
     "section",
-    { class: "card", "aria-label": "Muscle" },
-    h("div", { class: "card-head" }, h("h2", null, "Muscle"), () => unverifiedBadge(preset.value)),
-    presetSelect(),
-    h("p", { class: "error" }, () => messageFor("preset") ?? ""),
-    orderCodeField(),
-    h(
-      "div",
-      { class: "segments", role: "radiogroup", "aria-label": "Form of the geometry" },
-      ...FORMS.map(formButton),
+    { class: "card", "aria-label": "Geometry" },
+    h("div", { class: "card-head" }, h("h2", null, "Geometry"), () => unverifiedBadge(preset.value)),
+    segments(
+      "Form of the geometry",
+      FORMS,
+      () => form.value,
+      (id) => editDesign({ muscle: inForm(design.peek().muscle, id) }, `${id} form`),
     ),
-    field("nominal_length"),
-    () => FORM_KEYS[form.value].map(field),
-    h(
-      "details",
-      { open: () => Boolean(messageFor("wall_thickness") ?? messageFor("inside_diameter")) },
-      h("summary", null, "Bladder"),
-      field("inside_diameter"),
-      field("wall_thickness"),
-    ),
+    () => FORM_KEYS[form.value].map((key) => field(key)),
+    field("inside_diameter"),
+    field("wall_thickness"),
     resetAll,
   );
-}
+
+/** Which muscle, in the row of fields. */
+export const muscleFields = () => [
+  h(
+    "div",
+    { class: "field", "data-field": "preset" },
+    h("div", { class: "field-head" }, h("label", { for: "preset" }, "Muscle"), presetSelect()),
+    () => messageFor("preset") ? h("p", { class: "error" }, messageFor("preset")) : null,
+  ),
+  field("nominal_length", false),
+];

@@ -1,16 +1,17 @@
 // @ts-check
-// The operation card: pressures, load, direction of motion, temperature, dead volume, fixed length.
-import { h, icon } from "../../dom.js";
+// What is asked about, load and pressure; and the card of conditions: pressures of the curves, direction of motion,
+// temperature, dead volume, fixed length.
+import { each, h, icon } from "../../dom.js";
 import { figure } from "../../facts.js";
 import { computed, signal } from "../../reactive.js";
 import { commit, preview, units } from "../../state.js";
 import { design, editDesign, patchDesign } from "../../muscle/document.js";
-import { BAR, number, parse, scaleOf, toShown } from "../../format.js";
+import { BAR, GRAVITY, number, parse, scaleOf, siOf, toShown, withUnit } from "../../format.js";
 import { quantityField } from "../../ui/field.js";
 import { openPopover } from "../../ui/dialog.js";
-import { curves, messageFor } from "./model.js";
+import { segments } from "../../ui/segments.js";
+import { curves, loadOf, messageFor, pressureNow } from "./model.js";
 import { preset } from "../../muscle/preset.js";
-import { siOf } from "../../format.js";
 
 /** @typedef {import("../../types.js").Design} Design */
 /** @typedef {import("../../format.js").Quantity} Quantity */
@@ -37,18 +38,17 @@ function chip(p) {
     const limit = curves.value?.limits.max_pressure;
     return limit != null && p > limit * (1 + 1e-9);
   };
-  const name = `${shownPressure(p)} ${pressureScale().unit}`;
   return h(
     "li",
     {
       class: () => `chip${over() ? " over" : ""}`,
       title: () => over() ? "Above the permitted pressure" : null,
     },
-    shownPressure(p),
+    () => shownPressure(p),
     h("button", {
       type: "button",
-      "aria-label": `Remove ${name}`,
-      disabled: pressures.value.length < 2,
+      "aria-label": () => `Remove ${shownPressure(p)} ${pressureScale().unit}`,
+      disabled: () => pressures.value.length < 2,
       onclick: () => setPressures(pressures.peek().filter((q) => q !== p), "remove pressure"),
     }, icon("close")),
   );
@@ -96,7 +96,7 @@ function pressureEditor() {
     h(
       "div",
       { class: "chips" },
-      h("ul", { "aria-label": "Pressures of the curves" }, () => pressures.value.map(chip)),
+      each("ul", { "aria-label": "Pressures of the curves" }, () => pressures.value, (p) => p, chip),
       h("span", { class: "chip add" }, input),
     ),
     () => {
@@ -165,7 +165,9 @@ const designField = (key, o) =>
     get: () => /** @type {number | null} */ (design.value[key]),
     put: (si, done) => {
       preview(patchDesign({ [key]: si }));
-      if (done) commit(o.label.toLowerCase());
+      const text = (/** @type {any} */ d) =>
+        withUnit(d.design[key], /** @type {Quantity} */ (o.quantity), units.peek());
+      if (done) commit(o.label.toLowerCase(), text);
     },
     message: () => messageFor(key),
     ...o,
@@ -178,78 +180,92 @@ const DIRECTIONS = [
   [1, "Venting", "The muscle lengthens: friction adds to the force"],
 ];
 
-export function operationCard() {
-  return h(
+export const operationCard = () =>
+  h(
     "section",
     { class: "card", "aria-label": "Operation" },
-    h("div", { class: "card-head" }, h("h2", null, "Operation")),
+    h("div", { class: "card-head" }, h("h2", null, "Curves and conditions")),
     pressureEditor(),
-    designField("load", {
-      label: "Load",
-      symbol: "F",
-      quantity: "force",
-      bounds: () => [0, preset.value?.limits?.max_force ? siOf(preset.value.limits.max_force) : 1000],
-    }),
     h(
       "div",
       { class: "field" },
-      h("span", { class: "label", id: "direction" }, "Direction of motion"),
-      h(
-        "div",
-        { class: "segments", role: "radiogroup", "aria-labelledby": "direction" },
-        ...DIRECTIONS.map(([value, label, title]) =>
-          h("button", {
-            type: "button",
-            role: "radio",
-            title,
-            "aria-checked": () => String(direction.value === value),
-            onclick: () => editDesign({ direction: value }, `${label.toLowerCase()} direction`),
-          }, label)
-        ),
+      h("span", { class: "label", "aria-hidden": "true" }, "Direction of motion"),
+      segments(
+        "Direction of motion",
+        DIRECTIONS,
+        () => direction.value,
+        (value) => editDesign({ direction: value }, `direction ${value}`),
       ),
     ),
+    designField("temperature", {
+      label: figure("channel.temperature").label,
+      symbol: "T",
+      quantity: "temperature",
+      bounds: () => [253.15, 353.15],
+      changed: () => design.value.temperature !== 293.15,
+      reset: () => editDesign({ temperature: 293.15 }, "reset temperature"),
+    }),
+    designField("dead_volume", {
+      label: "Dead volume",
+      symbol: "V",
+      quantity: "volume",
+      bounds: () => [0, 2e-4],
+      hint: "Air volume of tube and fittings. It makes the muscle softer when the valve is closed.",
+    }),
+    designField("fixed_length", {
+      label: "Fixed length",
+      symbol: "L",
+      quantity: "length",
+      empty: "off",
+      clear: () => editDesign({ fixed_length: null }, "no fixed length"),
+      bounds: () => {
+        const all = curves.value?.length ?? [0.1, 0.3];
+        return [Math.min(...all), Math.max(...all)];
+      },
+      hint: "Both ends fixed, for force over pressure. Leave empty to switch off.",
+    }),
     h(
-      "details",
-      null,
-      h("summary", null, "Temperature, closed valve, fixed length"),
-      designField("temperature", {
-        label: figure("channel.temperature").label,
-        symbol: "T",
-        quantity: "temperature",
-        bounds: () => [253.15, 353.15],
-        changed: () => design.value.temperature !== 293.15,
-        reset: () => editDesign({ temperature: 293.15 }, "reset temperature"),
+      "label",
+      { class: "check" },
+      h("input", {
+        type: "checkbox",
+        checked: () => !design.value.clipped,
+        onchange: (/** @type {Event} */ e) =>
+          editDesign({ clipped: !(/** @type {HTMLInputElement} */ (e.target).checked) }, "negative forces"),
       }),
-      designField("dead_volume", {
-        label: "Dead volume",
-        symbol: "V",
-        quantity: "volume",
-        bounds: () => [0, 2e-4],
-        hint: "Air volume of tube and fittings. It makes the muscle softer when the valve is closed.",
-      }),
-      designField("fixed_length", {
-        label: "Fixed length",
-        symbol: "L",
-        quantity: "length",
-        empty: "off",
-        clear: () => editDesign({ fixed_length: null }, "no fixed length"),
-        bounds: () => {
-          const all = curves.value?.length ?? [0.1, 0.3];
-          return [Math.min(...all), Math.max(...all)];
-        },
-        hint: "Both ends fixed, for force over pressure. Leave empty to switch off.",
-      }),
-      h(
-        "label",
-        { class: "check" },
-        h("input", {
-          type: "checkbox",
-          checked: () => !design.value.clipped,
-          onchange: (/** @type {Event} */ e) =>
-            editDesign({ clipped: !(/** @type {HTMLInputElement} */ (e.target).checked) }, "negative forces"),
-        }),
-        "Show negative forces (a real muscle goes slack)",
-      ),
+      "Show negative forces (a real muscle goes slack)",
     ),
   );
-}
+
+/** What is asked about, in the row of fields. */
+export const askedFields = () => [
+  designField("load", {
+    label: "Load",
+    quantity: "force",
+    slider: false,
+    weighs: true,
+    // A mass stays a mass, with its weight beside it.
+    scale: () => isMass() ? massScale() : scaleOf("force", units.value),
+    also: () => isMass() ? ` = ${withUnit(design.value.load, "force", units.value)}` : "",
+    put: (si, done, typed) => {
+      const as = typed === "mass" || typed === "force" ? typed : design.peek().load_as;
+      preview(patchDesign({ load: si, load_as: as }));
+      if (done) commit("load", loadOf);
+    },
+    bounds: () => [0, preset.value?.limits?.max_force ? siOf(preset.value.limits.max_force) : 1000],
+  }),
+  designField("pressure", {
+    label: "Pressure",
+    quantity: "pressure",
+    slider: false,
+    counted: () => GAUGE,
+    get: () => pressureNow.value,
+    bounds: () => [0, preset.value?.limits?.max_pressure ? siOf(preset.value.limits.max_pressure) : 1e6],
+  }),
+];
+
+const isMass = () => design.value.load_as === "mass";
+const massScale = () => {
+  const s = scaleOf("mass", units.value);
+  return { ...s, factor: s.factor * GRAVITY };
+};

@@ -22,6 +22,7 @@ import {
 import { partsField } from "./parts.js";
 import { fieldOf, isNumber, RANKINGS, USUAL_RANKING } from "./specs.js";
 import { asText } from "./words.js";
+import { segments } from "../../ui/segments.js";
 
 /** @typedef {import("../../types.js").TaskArrangement} Arrangement */
 
@@ -80,18 +81,11 @@ export function taskCard() {
     h("label", { class: "unseen", for: "task-title" }, "Name of the task"),
     title,
     h("p", { class: "error", "data-field": "title" }, () => messageFor("title") ?? ""),
-    h(
-      "div",
-      { class: "segments", role: "radiogroup", "aria-label": "Arrangement" },
-      ...ARRANGEMENTS.map(([id, label, hint]) =>
-        h("button", {
-          type: "button",
-          role: "radio",
-          title: hint,
-          "aria-checked": () => String(arrangement.value === id),
-          onclick: () => editSizing(rearranged(sizing.peek(), id), label.toLowerCase()),
-        }, label)
-      ),
+    segments(
+      "Arrangement",
+      ARRANGEMENTS,
+      () => arrangement.value,
+      (id) => editSizing(rearranged(sizing.peek(), id), `arrangement ${id}`),
     ),
     () => neededFields(),
     proposeButton(),

@@ -2,11 +2,15 @@
 // The selected proposal in figures, what can be done with it, and how the search went.
 import { inSentence } from "../../facts.js";
 import { h, icon } from "../../dom.js";
+import { number, scaleOf, toShown } from "../../format.js";
+import { units } from "../../state.js";
 import { openPopover } from "../../ui/dialog.js";
 import { openInDesign, openInTransient, saveReport, writing } from "./actions.js";
 import { marginBars } from "./margins.js";
-import { answer, chosen, chosenIndex, proposals } from "./model.js";
-import { driveWords, partsWords, percent, sizingFigure, terms } from "./words.js";
+import { hanging } from "../../muscle/hanging.js";
+import { answer, answeredTask, chosen, chosenIndex, proposals } from "./model.js";
+import { fieldOf } from "./specs.js";
+import { asText, driveWords, partsWords, percent, sizingFigure, terms } from "./words.js";
 
 /** @typedef {import("../../types.js").S["ProposedDrive"]} Proposal */
 
@@ -88,6 +92,41 @@ function unverifiedBadge(p) {
   return button;
 }
 
+/** The drive as it is mounted: hanging, or lying where the load does not hang. @param {Proposal} p */
+function mounting(p) {
+  const { load = {} } = answeredTask();
+  if (load.pair || (load.lever_ratio ?? 1) !== 1) return null;
+  const inclination = load.inclination ?? fieldOf("load.inclination").default ?? Math.PI / 2;
+  const near = (/** @type {number} */ angle) => Math.abs(inclination - angle) < 0.01;
+  const word = near(Math.PI / 2) ? "hanging" : near(0) ? "lying" : "inclined";
+  if (word === "inclined") return null; // no drawing is better than one of another mounting
+  const text = (/** @type {number} */ si) => asText(si, "length");
+  const end = p.nominal_length * (1 - p.contraction);
+  const s = scaleOf("mass", units.value);
+  const mass = load.mass
+    ? `${number(toShown(load.mass, s), s.digits)} ${s.unit}`
+    : asText(load.force ?? 0, "force");
+  return h(
+    "figure",
+    { class: `mounting ${word}` },
+    hanging(
+      [
+        { length: p.nominal_length, width: p.outer_diameter, below: text(p.nominal_length) },
+        { length: end, width: p.outer_diameter, below: text(end), filled: true },
+      ],
+      { load: mass, rise: "" },
+      176,
+    ),
+    h(
+      "figcaption",
+      { class: "muted" },
+      `${word}: ${asText(answeredTask().stroke, "length")} in ${asText(p.time, "time")} at ${
+        asText(p.pressure, "pressure")
+      }`,
+    ),
+  );
+}
+
 /** @param {Proposal} p */
 function card(p) {
   return [
@@ -99,6 +138,7 @@ function card(p) {
     ),
     h("h3", null, () => driveWords(p)),
     h("p", { class: "muted" }, () => partsWords(p)),
+    mounting(p),
     verdict(p),
     h(
       "div",

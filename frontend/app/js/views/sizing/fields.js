@@ -6,7 +6,7 @@ import { computed, effect, signal } from "../../reactive.js";
 import { commit, preview, units } from "../../state.js";
 import { number, plainScale, scaleOf, toShown, toSi } from "../../format.js";
 import { quantityField } from "../../ui/field.js";
-import { put } from "../../paths.js";
+import { at, put } from "../../paths.js";
 import { messageFor, patchSizing, setTask, task, valueAt } from "./model.js";
 import { fieldOf } from "./specs.js";
 
@@ -16,6 +16,12 @@ export function taskField(path, { needed = false } = {}) {
   const name = inSentence(label);
   const entered = computed(() => valueAt(path));
   const reset = () => setTask(path, undefined, `default ${name}`);
+  const scale = () => quantity ? scaleOf(quantity, units.value) : plainScale(unit);
+  /** @param {number | null} si */
+  const inWords = (si) =>
+    si === null
+      ? empty ?? "–"
+      : `${number(toShown(si, scale()), scale().digits)}\u00a0${scale().unit}`.trim();
   return h(
     "div",
     { class: "task-field" },
@@ -24,12 +30,12 @@ export function taskField(path, { needed = false } = {}) {
       label,
       quantity,
       slider: false,
-      scale: () => quantity ? scaleOf(quantity, units.value) : plainScale(unit),
+      scale,
       bounds: () => bounds,
       get: () => entered.value ?? usual,
       put: (si, done) => {
         preview(patchSizing({ task: put(task.peek(), path, whole ? Math.round(si) : si) }));
-        if (done) commit(name);
+        if (done) commit(name, (d) => inWords(/** @type {any} */ (at(d.sizing.task, path)) ?? usual));
       },
       empty,
       clear: usual === null || !needed ? reset : undefined,

@@ -3,6 +3,7 @@
 import { h, icon } from "../../dom.js";
 import { examples, proposeButton, taskCard, taskCards } from "./cards.js";
 import { chosenCard, searchLine } from "./chosen.js";
+import { differences } from "./differences.js";
 import { frontCard } from "./front.js";
 import {
   answer,
@@ -146,6 +147,7 @@ export function taskPage() {
     h(
       "div",
       { class: () => `column results${dimmed()}`, hidden: () => !proposals.value.length },
+      differences,
       chosenCard(),
     ),
     h("div", { class: () => `column further${dimmed()}` }, frontCard(), rejectedCard(), searchLine),

@@ -2,11 +2,12 @@
 // The ranked list: one row per proposal, with its reasons and margins below it on request.
 import { inSentence } from "../../facts.js";
 import { capitalized, scaleOf, toShown } from "../../format.js";
-import { h, icon } from "../../dom.js";
-import { effect, signal } from "../../reactive.js";
+import { each, h, icon } from "../../dom.js";
+import { computed, effect, signal } from "../../reactive.js";
 import { units } from "../../state.js";
 import { menuButton } from "../../ui/menu.js";
 import { saveCsv, saveTask } from "./actions.js";
+import { tick, ticked } from "./differences.js";
 import { marginBars } from "./margins.js";
 import { answer, answeredTask, chosenIndex, headingOf, isPartial, lookSizing, proposals } from "./model.js";
 import { asText, driveWords, limitName, partsOf, percent, sizingFigure, spare, terms } from "./words.js";
@@ -36,6 +37,43 @@ const WIDTH = COLUMNS.length + 3; // with number, drive, and the button for reas
 
 const DOUBTFUL = 0.5;
 
+/** What the list is sorted by: a figure, "length", or the server's rank. Not part of the task, so not of the document. */
+const sorting = signal(/** @type {{by: string, down: boolean}} */ ({ by: "rank", down: false }));
+/** @param {string} by */
+const sortBy = (by) => (sorting.value = { by, down: sorting.peek().by === by && !sorting.peek().down });
+/** @param {Proposal} p @param {string} by */
+const sortValue = (p, by) =>
+  by === "margins"
+    ? p.margins[p.binding]
+    : by === "length"
+    ? p.nominal_length
+    : /** @type {number | null} */ (/** @type {any} */ (p)[by]) ?? Infinity;
+const sorted = computed(() => {
+  const { by, down } = sorting.value, all = proposals.value.map((p, i) => ({ p, i }));
+  if (by !== "rank") all.sort((a, b) => sortValue(a.p, by) - sortValue(b.p, by));
+  return down ? all.reverse() : all;
+});
+
+/** A head that sorts; a second press turns the order round. @param {string} by @param {string} kind CSS class
+ * @param {string} definition @param {import("../../dom.js").Child[]} text */
+const sortHead = (by, kind, definition, ...text) =>
+  h(
+    "th",
+    {
+      scope: "col",
+      class: kind,
+      title: definition,
+      "aria-sort": () => sorting.value.by !== by ? null : sorting.value.down ? "descending" : "ascending",
+    },
+    h(
+      "button",
+      { type: "button", class: "sort", onclick: () => sortBy(by) },
+      ...text,
+      h("span", { class: "arrow", "aria-hidden": "true" }, () =>
+        sorting.value.by !== by ? "" : sorting.value.down ? "↓" : "↑"),
+    ),
+  );
+
 /** @param {Proposal} p */
 const doubt = (p) =>
   p.unverified.length
@@ -59,7 +97,22 @@ function row(p, i) {
         class: () => `proposal${chosenIndex.value === i ? " chosen" : ""}`,
         onclick: () => lookSizing({ selected: i }),
       },
-      h("td", { class: "rank" }, String(i + 1)),
+      h(
+        "td",
+        { class: "rank" },
+        h(
+          "label",
+          { onclick: (/** @type {Event} */ e) => e.stopPropagation() },
+          h("input", {
+            type: "checkbox",
+            "aria-label": `Compare proposal ${i + 1}`,
+            title: "Tick two to see how they differ",
+            checked: () => ticked.value.includes(i),
+            onchange: () => tick(i),
+          }),
+          String(i + 1),
+        ),
+      ),
       h(
         "th",
         { scope: "row", class: "text" },
@@ -162,16 +215,12 @@ function costs(p) {
   });
 }
 
-/** Whether the proposals are on the Pareto front; those that are not bear a mark. */
-const frontWords = () =>
-  proposals.value.length > 1 && proposals.value.every((p) => p.front)
-    ? `; all on the ${sizingFigure("front").label}`
-    : "";
-
 export function proposalsCard() {
   effect(() => {
     answer.value;
     unfolded.value = new Set();
+    ticked.value = [];
+    sorting.value = { by: "rank", down: false };
   });
   return h(
     "section",
@@ -179,11 +228,15 @@ export function proposalsCard() {
     h(
       "div",
       { class: "card-head" },
-      h("h2", null, "Proposals"),
+      h("h2", null, () => `${proposals.value.length} drive${proposals.value.length === 1 ? "" : "s"}`),
       h(
         "span",
         { class: "muted" },
-        () => `${answer.value && isPartial(answer.value) ? "found so far, " : ""}best first${frontWords()}`,
+        () =>
+          [
+            answer.value && isPartial(answer.value) ? "found so far" : "",
+            ticked.value.length ? `${ticked.value.length} of 2 ticked` : "",
+          ].filter(Boolean).join(", "),
       ),
       menuButton({
         label: icon("more"),
@@ -200,9 +253,12 @@ export function proposalsCard() {
     h(
       "div",
       { class: "scroll", tabindex: 0, role: "region", "aria-label": "Ranked drives" },
-      h(
+      each(
         "table",
         { class: "data" },
+        () => sorted.value,
+        ({ p }) => p,
+        ({ p, i }) => row(p, i),
         h("caption", { class: "unseen" }, "Drives that fulfil the task, best first"),
         h(
           "thead",
@@ -210,14 +266,15 @@ export function proposalsCard() {
           h(
             "tr",
             null,
-            h("th", { scope: "col" }, "No."),
-            h("th", { scope: "col", class: "text" }, "Drive"),
+            sortHead("rank", "text", "The order of the search: best first", "No."),
+            sortHead("length", "text", sizingFigure("nominal_length").definition, "Drive"),
             ...COLUMNS.map(([kind, name]) => {
               const { label, definition } = sizingFigure(name), [title, note] = label.split(" (ANR)");
               const small = name === "margins" ? inSentence(sizingFigure("binding").label) : "ANR";
-              return h(
-                "th",
-                { scope: "col", class: kind, title: definition },
+              return sortHead(
+                name,
+                kind,
+                definition,
                 title,
                 name === "margins" || note !== undefined ? h("small", null, small) : null,
               );
@@ -225,7 +282,6 @@ export function proposalsCard() {
             h("td", null),
           ),
         ),
-        () => proposals.value.map(row),
       ),
     ),
   );

@@ -15,7 +15,8 @@ export const defaultTransient = () => ({
   drive: defaultDrive(),
   mode: "command",
   scenario: null,
-  lower: "flow",
+  signals: ["position", "valve", "pressure", "flow", "angle", "torque", "stiffness"], // the last three of joints only
+  tolerance: 0.05,
   window: null,
   phase: null,
   pins: [],
@@ -25,6 +26,9 @@ export const defaultTransient = () => ({
 
 /** @param {unknown} x @returns {x is [number, number]} */
 const isRange = (x) => Array.isArray(x) && x.length === 2 && x.every(Number.isFinite) && x[0] < x[1];
+
+/** @param {unknown} x @returns {x is string[]} */
+const isSignals = (x) => Array.isArray(x) && x.length > 0 && x.every((each) => typeof each === "string");
 
 /** Reads the Transient part of a link or file; a missing part takes its default.
  * @param {unknown} raw @returns {Transient} @throws {Error} says which part is invalid */
@@ -43,7 +47,8 @@ function readTransient(raw) {
     drive: isObject(drive.load) ? { ...drive, load: withArrangement(drive.load) } : drive,
     mode: raw.mode === "controller" ? "controller" : "command",
     scenario: typeof raw.scenario === "string" ? raw.scenario : null,
-    lower: ["force", "valve"].includes(raw.lower) ? raw.lower : "flow",
+    signals: isSignals(raw.signals) ? raw.signals : start.signals,
+    tolerance: typeof raw.tolerance === "number" && raw.tolerance > 0 ? raw.tolerance : start.tolerance,
     window: isRange(w) ? [w[0], w[1]] : null,
     phase: isZoomed ? { pressure: z.pressure, contraction: z.contraction } : null,
     pins: /** @type {Pin[]} */ (sound.slice(0, MOST_PINS)),

@@ -13,12 +13,6 @@ const free = (e) =>
 /** @type {import("../../ui/shortcuts.js").Shortcut[]} */
 export const TRANSIENT_KEYS = [
   {
-    keys: "Space",
-    what: "Transient: play or pause the run",
-    match: (e) => e.key === " " && free(e),
-    run: async () => (await import("./motion/animation.js")).togglePlay(),
-  },
-  {
     keys: "P",
     what: "Transient: pin this run",
     match: (e) => e.key.toLowerCase() === "p" && free(e),

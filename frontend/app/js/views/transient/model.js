@@ -44,13 +44,13 @@ const withoutEmpty = (drive) =>
   );
 
 /** @param {string} path @param {unknown} value undefined removes it @param {string} label
- * @param {boolean} [done] false while a slider still moves */
-export function setDrive(path, value, label, done = true) {
+ * @param {boolean} [done] false while a slider still moves @param {(drive: Drive) => string} [text] the value in words */
+export function setDrive(path, value, label, done = true, text = undefined) {
   preview((d) => ({
     ...d,
     transient: { ...d.transient, drive: withoutEmpty(put(d.transient.drive, path, value)) },
   }));
-  if (done) commit(label);
+  if (done) commit(label, text && ((d) => text(d.transient.drive)));
 }
 
 /** A number of the drive in SI; null: not given. @param {string} path @returns {number | null} */

@@ -4,13 +4,12 @@ import { append, h } from "../../dom.js";
 import { apart, computed, effect } from "../../reactive.js";
 import { lostPresets } from "../../server/missing.js";
 import { linearCard } from "./linear/card.js";
-import { stageCard } from "./motion/animation.js";
 import { paired, plotCards } from "./plots/charts.js";
-import { figureCards } from "./figures/figures.js";
+import { figureCards, verdictBar } from "./figures/figures.js";
 import { measuredCard } from "./measured.js";
 import { faultNotice, goToField } from "../../ui/fault.js";
 import { fault, faultField, retry, run, stale, startRuns } from "./model.js";
-import { inputCards } from "./inputs/panel.js";
+import { driveEffects, inputCards } from "./inputs/panel.js";
 import { startPins } from "./pinned-runs.js";
 import { compareCard } from "./pinned/card.js";
 
@@ -31,16 +30,18 @@ export function transientPage() {
   const results = h("div", { class: () => `column results${stale.value ? " stale" : ""}` });
   figureCards().forEach((card) => append(results, card));
   results.append(measuredCard());
+  const plots = plotCards();
   const page = h(
     "div",
     { class: "transient" },
+    h("div", { class: () => `top${stale.value ? " stale" : ""}` }, notice, verdictBar()),
     h("div", { class: "column inputs" }, ...inputCards()),
     h(
       "div",
       { class: () => `column runs${stale.value ? " stale" : ""}${paired.value ? " paired" : ""}` },
-      notice,
-      stageCard(),
-      ...plotCards(),
+      plots.strips,
+      driveEffects(),
+      plots.phase,
       compareCard(),
       linearCard(),
     ),

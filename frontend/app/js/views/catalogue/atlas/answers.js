@@ -5,7 +5,8 @@ import { Question } from "../../../server/question.js";
 import { computed, signal } from "../../../reactive.js";
 import { muscleInput } from "../../../muscle/document.js";
 import { muscle } from "../../../muscle/preset.js";
-import { effectsById } from "../../../store.js";
+import { seen } from "../../../muscle/seen.js";
+import { effects } from "../../../store.js";
 import { filter } from "../table.js";
 
 /** @typedef {import("../../../types.js").S["Signatures"]} Signatures */
@@ -19,9 +20,18 @@ const bodyOf = (effect, values = {}) => JSON.stringify({ muscle: muscleInput(mus
 /** @param {string} text @param {AbortSignal} [signal] @returns {Promise<Signatures>} */
 const ask = (text, signal) => post("/api/signatures", JSON.parse(text), signal);
 
-/** The effect that is shown in full: the chosen one, else the first. */
+/** The effects that the filter shows, those most like the residual of the case first. */
+export const shown = computed(() => {
+  const words = filter.value.search.toLowerCase().split(/\s+/), like = seen.value?.likeness ?? {};
+  return effects.value
+    .filter((e) =>
+      words.every((word) => `${e.title} ${e.family} ${e.signature.text}`.toLowerCase().includes(word))
+    )
+    .sort((a, b) => (like[b.id] ?? -1) - (like[a.id] ?? -1));
+});
+/** The effect that is shown in full: the chosen one, else the first that the filter shows. */
 export const chosen = computed(() =>
-  effectsById.value.get(filter.value.selected ?? "") ?? [...effectsById.value.values()][0] ?? null
+  shown.value.find(({ id }) => id === filter.value.selected) ?? shown.value[0] ?? null
 );
 /** The sizes that the sliders set, by effect. */
 export const sizes = signal(/** @type {Record<string, Record<string, number>>} */ ({}));

@@ -1,9 +1,9 @@
 // @ts-check
 // The atlas: every effect with what it leaves in the residual; one of them in full, with sliders and its twins.
-import { h, icon } from "../../../dom.js";
-import { computed, effect, signal } from "../../../reactive.js";
+import { each, h, icon } from "../../../dom.js";
+import { effect, signal } from "../../../reactive.js";
 import { units, view } from "../../../state.js";
-import { effects, effectsById } from "../../../store.js";
+import { effectsById } from "../../../store.js";
 import { capitalized, plainScale, quantityOf, readable, scaleOf } from "../../../format.js";
 import { quantityField } from "../../../ui/field.js";
 import { openDesign } from "../../../muscle/document.js";
@@ -11,22 +11,13 @@ import { effectNote } from "../../../muscle/effect-note.js";
 import { activeEffects, preset } from "../../../muscle/preset.js";
 import { seen } from "../../../muscle/seen.js";
 import { filter, setFilter } from "../table.js";
-import { answer, chosen, fault, followChosen, outdated, sizes, usual } from "./answers.js";
+import { answer, chosen, fault, followChosen, outdated, shown, sizes, usual } from "./answers.js";
 import { picture } from "./picture.js";
 
 /** @typedef {import("./answers.js").Effect} Effect */
 
 /** Effects whose card has come into view. */
 const near = signal(/** @type {ReadonlySet<string>} */ (new Set()));
-
-const shown = computed(() => {
-  const words = filter.value.search.toLowerCase().split(/\s+/), like = seen.value?.likeness ?? {};
-  return effects.value
-    .filter((e) =>
-      words.every((word) => `${e.title} ${e.family} ${e.signature.text}`.toLowerCase().includes(word))
-    )
-    .sort((a, b) => (like[b.id] ?? -1) - (like[a.id] ?? -1));
-});
 
 /** @param {Effect} e */
 function likeness(e) {
@@ -94,7 +85,7 @@ function gallery() {
             : `what each leaves in the residual of ${preset.value?.title ?? "this muscle"}`,
       ),
     ),
-    h("ul", { class: "atlas-grid" }, () => shown.value.map((e) => card(e, watch))),
+    each("ul", { class: "atlas-grid" }, () => shown.value, ({ id }) => id, (e) => card(e, watch)),
     h(
       "p",
       { class: "muted", role: "status" },
@@ -185,7 +176,10 @@ function detail(e) {
     h(
       "div",
       { class: () => `pictures${outdated.value ? " stale" : ""}` },
-      () => answer.value?.effect === e.id ? answer.value.pictures.map((p) => picture(p, e.title)) : null,
+      () =>
+        answer.value?.effect === e.id
+          ? answer.value.pictures.map((p) => picture(p, e.title, false, true))
+          : null,
     ),
     () => {
       const hidden = answer.value?.effect === e.id ? answer.value.hidden : [];
@@ -218,7 +212,7 @@ export function atlas() {
   const box = h("section", { class: "card atlas-detail", "aria-label": "Effect" });
   effect(() => {
     const e = chosen.value;
-    if (e && isShown()) box.replaceChildren(...within(detail(e)));
+    if (isShown()) box.replaceChildren(...(e ? within(detail(e)) : []));
   });
   return [gallery(), box];
 }

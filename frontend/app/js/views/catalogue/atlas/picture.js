@@ -7,7 +7,7 @@ import { seen } from "../../../muscle/seen.js";
 
 /** @typedef {import("./answers.js").Picture} Picture */
 
-const WIDE = 240, HIGH = 96, EDGE = 5, MOST_DOTS = 250;
+const WIDE = 240, HIGH = 96, EDGE = 5, AXIS = 34, MOST_DOTS = 250;
 /** @type {Record<string, string>} */
 const NAMES = { contraction: "ε", pressure: "P", time: "time", length: "L" };
 
@@ -33,15 +33,30 @@ function dots(p) {
   });
 }
 
+/** The axis of the residual: its line, and numbers at both ends and at zero.
+ * @param {number} most in the shown unit @param {number} left */
+const axes = (most, left) => [
+  svg("line", { class: "zero", x1: left, x2: left, y1: EDGE, y2: HIGH - EDGE }),
+  ...[1, 0, -1].map((share) =>
+    svg(
+      "text",
+      { class: "tick", x: left - 4, y: HIGH / 2 - share * (HIGH / 2 - EDGE - 4) + 3, "text-anchor": "end" },
+      `${share > 0 ? "+" : ""}${short(share * most)}`,
+    )
+  ),
+];
+
 /** @param {Picture} p @param {string} title of the effect
- * @param {boolean} [named] whether the picture names the reading, because that beside it shows another */
-export function picture(p, title, named = false) {
+ * @param {boolean} [named] whether the picture names the reading, because that beside it shows another
+ * @param {boolean} [large] with axes */
+export function picture(p, title, named = false, large = false) {
   const over = dots(p);
   const xs = [...p.curves.flatMap((c) => c.x), ...over.map(([x]) => x)];
   const ys = [...p.curves.flatMap((c) => c.y), ...over.map(([, y]) => y)];
   const low = Math.min(...xs), wide = Math.max(...xs) - low || 1;
   const most = Math.max(...ys.map(Math.abs)) || 1;
-  const atX = (/** @type {number} */ x) => EDGE + ((x - low) / wide) * (WIDE - 2 * EDGE);
+  const left = large ? AXIS : EDGE;
+  const atX = (/** @type {number} */ x) => left + ((x - low) / wide) * (WIDE - EDGE - left);
   const atY = (/** @type {number} */ y) => HIGH / 2 - (y / most) * (HIGH / 2 - EDGE);
   const sx = scale(p.x_unit, p.x), sy = scale(p.unit, p.quantity), held = scale(p.held_unit, p.held);
   const words = `${title}, ${p.kind} test: residual of the ${p.quantity} over ${readable(p.x)}, rms ${
@@ -56,7 +71,8 @@ export function picture(p, title, named = false) {
   const drawing = svg(
     "svg",
     { viewBox: `0 0 ${WIDE} ${HIGH}`, role: "img", "aria-label": words, class: "signature" },
-    svg("line", { class: "zero", x1: 0, x2: WIDE, y1: HIGH / 2, y2: HIGH / 2 }),
+    svg("line", { class: "zero", x1: large ? left : 0, x2: WIDE, y1: HIGH / 2, y2: HIGH / 2 }),
+    ...(large ? axes(most / sy.factor, left) : []),
     ...over.map(([x, y]) => svg("circle", { class: "seen", cx: atX(x), cy: atY(y), r: 1.6 })),
     ...lines,
   );

@@ -18,6 +18,7 @@ import {
 } from "./files.js";
 import { answer, chosen, fault, files, messageFor } from "../answers.js";
 import { preparation } from "./prepare.js";
+import { segments } from "../../../ui/segments.js";
 
 /** @typedef {import("../../../types.js").Chosen} Chosen */
 /** @typedef {import("../../../types.js").Use} Use */
@@ -91,19 +92,7 @@ function fileRow(file, index) {
         onclick: () => removeFile(file.id),
       }, icon("close")),
     ),
-    h(
-      "div",
-      { class: "segments", role: "radiogroup", "aria-label": `Use of ${file.name}` },
-      ...USES.map(([id, label, title]) =>
-        h("button", {
-          type: "button",
-          role: "radio",
-          title,
-          "aria-checked": String(file.use === id),
-          onclick: () => setUse(file.id, id),
-        }, label)
-      ),
-    ),
+    segments(`Use of ${file.name}`, USES, () => file.use, (id) => setUse(file.id, id)),
     h("p", { class: "muted" }, () => [kindText(file), rowsText(file)].filter(Boolean).join(" · ")),
     () => {
       const kept = keptFor(file.id);

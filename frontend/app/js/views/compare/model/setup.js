@@ -22,6 +22,7 @@ import {
   preset,
   steps,
 } from "../answers.js";
+import { segments } from "../../../ui/segments.js";
 
 /** @typedef {import("../../../format.js").Quantity} Quantity */
 
@@ -253,25 +254,13 @@ const STARTS = [
 /** Whether the start model came with a mystery or a drive document. */
 const isProvided = () => (steps.value[0] ?? compare.value).label === PROVIDED;
 
-function startChoice() {
-  return h(
-    "div",
-    { class: "segments", role: "radiogroup", "aria-label": "Start model" },
-    ...STARTS.map(([id, label, title]) =>
-      h("button", {
-        type: "button",
-        role: "radio",
-        title,
-        "aria-checked": () => String(compare.value.start === id && !(id === "ideal" && isProvided())),
-        onclick: () =>
-          edit(
-            (d) => ({ ...d, compare: withStartModel(d.compare, id) }),
-            `start from ${label.toLowerCase()}`,
-          ),
-      }, label)
-    ),
+const startChoice = () =>
+  segments(
+    "Start model",
+    STARTS,
+    () => compare.value.start === "ideal" && isProvided() ? null : compare.value.start,
+    (id) => edit((d) => ({ ...d, compare: withStartModel(d.compare, id) }), `start from ${id}`),
   );
-}
 
 const noiseScale = () => {
   const unit = answer.value?.unit ?? "N";

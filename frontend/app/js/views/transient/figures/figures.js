@@ -56,14 +56,6 @@ function keyFigures(r) {
   );
 }
 
-/** @type {Record<string, string>} */
-const OUTCOMES = {
-  completed: "The run is complete.",
-  stuck: "The run got stuck.",
-  diverged: "The run diverged.",
-  timed_out: "The run took too long.",
-  cancelled: "The run was cancelled.",
-};
 const NOTE = "unverified";
 /** Remarks on what the figures are worth, which are no limits. */
 const REMARKS = new Set(["curve_fit", "stretched"]);
@@ -77,17 +69,14 @@ function verdict() {
   }
   const done = r.outcome === "completed";
   const beside = r.flags.filter((f) => REMARKS.has(f.code));
-  const hard = r.flags.filter((f) => f.code !== NOTE && !REMARKS.has(f.code)),
-    doubts = r.flags.filter((f) => f.code === NOTE);
+  const hard = r.flags.filter((f) => f.code !== NOTE && !REMARKS.has(f.code));
   const { verdict: asked } = r;
   const away = asked.met === false;
   // Green is an answer: of a run that is asked nothing there is none.
   const grade = !done ? "bad" : hard.length || away ? "warn" : asked.met === null ? "plain" : "good";
   const end = r.time.at(-1) ?? 0;
+  const title = done ? asked.sentence : r.message ?? asked.sentence;
   return [
-    ...beside.map((f) =>
-      h("p", { class: "flag note" }, icon("info"), h("span", null, `${capital(f.message)}.`))
-    ),
     h(
       "p",
       { class: `verdict ${grade}` },
@@ -95,22 +84,33 @@ function verdict() {
       h(
         "span",
         null,
-        OUTCOMES[r.outcome] ?? r.outcome,
-        done ? unbroken(` ${asked.sentence}`) : "",
+        h("b", null, unbroken(title)),
         done && r.tracking?.advice ? h("span", { class: "advice" }, ` ${capital(r.tracking.advice)}.`) : "",
         done
           ? hard.length ? " It leaves the permitted range:" : " No permitted limit is exceeded."
-          : ` It ended at ${lapse(end)}. ${r.message ?? ""}`,
+          : ` It ended at ${lapse(end)}.`,
       ),
     ),
     ...hard.map((f) => h("p", { class: "flag bad" }, icon("warn"), h("span", null, unbroken(f.message)))),
+    ...beside.map((f) =>
+      h("p", { class: "flag note" }, icon("info"), h("span", null, `${capital(f.message)}.`))
+    ),
     keyFigures(r),
-    doubts.length
+  ];
+}
+
+/** Sources that nobody has verified, and notes on the document. */
+function doubts() {
+  const r = run.value;
+  if (!r) return null;
+  const unread = r.flags.filter((f) => f.code === NOTE);
+  return [
+    unread.length
       ? h(
         "details",
         { class: "doubts" },
-        h("summary", null, icon("info"), `${doubts.length} unverified source${doubts.length > 1 ? "s" : ""}`),
-        h("ul", { class: "plain muted" }, ...doubts.map((f) => h("li", null, f.message))),
+        h("summary", null, icon("info"), `${unread.length} unverified source${unread.length > 1 ? "s" : ""}`),
+        h("ul", { class: "plain muted" }, ...unread.map((f) => h("li", null, f.message))),
       )
       : null,
     ...remarks(r),
@@ -253,6 +253,14 @@ function runLine() {
     `${r.steps} steps · answer after ${Math.round(roundTrip.value)} ms`;
 }
 
+/** What the run says of what was asked, above everything else. */
+export const verdictBar = () =>
+  h(
+    "section",
+    { class: "card verdict-bar", "aria-label": "Verdict" },
+    h("div", { class: "verdicts", "aria-live": "polite" }, verdict),
+  );
+
 /** @returns {(HTMLElement | (() => HTMLElement | null))[]} */
 export function figureCards() {
   return [
@@ -260,7 +268,7 @@ export function figureCards() {
       "section",
       { class: "card", "aria-label": "Run" },
       h("div", { class: "card-head" }, h("h2", null, "Run")),
-      h("div", { class: "verdicts" }, verdict),
+      doubts,
       h("p", { class: "hint", id: "run-start" }, conditions),
       eventList,
       h("p", { class: "runline" }, runLine),

@@ -3,7 +3,7 @@
 import { h } from "../../../dom.js";
 import { figure as declared } from "../../../facts.js";
 import { units } from "../../../state.js";
-import { scaleOf, siOf } from "../../../format.js";
+import { number, scaleOf, siOf, toShown } from "../../../format.js";
 import { quantityField, subscript } from "../../../ui/field.js";
 import { at } from "../../../paths.js";
 import { countedAt } from "../../../drive/document.js";
@@ -296,6 +296,13 @@ export function driveField(path, spec = SPECS[path]) {
   // No value is a value of its own where the field may be empty, whatever the scenario says.
   const value = () => numberAt(path) ?? (spec.empty ? null : usualOf(spec, path));
   const { bounds, empty } = spec;
+  const scale = () =>
+    spec.unit ? { unit: spec.unit, factor: 1, digits: 4 } : scaleOf(spec.quantity, units.value);
+  /** @param {import("../../../types.js").Drive} d */
+  const inWords = (d) => {
+    const si = siNumber(at(d, path), countedAt(d, path)) ?? usualOf(spec, path), s = scale();
+    return si === null ? empty ?? "–" : `${number(toShown(si, s), s.digits)}\u00a0${s.unit}`.trim();
+  };
   return quantityField({
     key: path,
     label: spec.label,
@@ -304,13 +311,13 @@ export function driveField(path, spec = SPECS[path]) {
     log: spec.log,
     hint: spec.hint,
     slider: spec.slider,
-    scale: () => spec.unit ? { unit: spec.unit, factor: 1, digits: 4 } : scaleOf(spec.quantity, units.value),
+    scale,
     bounds: typeof bounds === "function" ? bounds : () => bounds,
     counted: () => countedAt(drive.peek(), path),
     empty,
     clear: empty ? () => setDrive(path, undefined, `${label} ${empty}`) : undefined,
     get: value,
-    put: (si, done) => setDrive(path, si, label, done),
+    put: (si, done) => setDrive(path, si, label, done, inWords),
     changed: () => {
       const set = numberAt(path), usual = usualOf(spec, path);
       if (empty && (set === null || usual === null)) return set !== usual;

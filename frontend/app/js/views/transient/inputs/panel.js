@@ -5,7 +5,7 @@ import { computed } from "../../../reactive.js";
 import { units } from "../../../state.js";
 import { design, showMuscle } from "../../../muscle/document.js";
 import { siOf, withUnit } from "../../../format.js";
-import { effectsCard, isStatic } from "../../../muscle/effects.js";
+import { effectsRow } from "../../../muscle/effects.js";
 import { preset } from "../../../muscle/preset.js";
 import { studyTolerance } from "../../../drive/study.js";
 import { driveField, partMessage } from "./fields.js";
@@ -29,6 +29,7 @@ import { loadCard } from "./load.js";
 import { setPointFields } from "./set-points.js";
 import { signalFields } from "./signals.js";
 import { supplyCard } from "./supply.js";
+import { segments } from "../../../ui/segments.js";
 
 function scenarioField() {
   return h(
@@ -122,19 +123,7 @@ function commandCard() {
   return h(
     "section",
     { class: "card", "aria-label": "Command" },
-    h(
-      "div",
-      { class: "segments", role: "radiogroup", "aria-label": "Control of the valve" },
-      ...MODES.map(([id, label, title]) =>
-        h("button", {
-          type: "button",
-          role: "radio",
-          title,
-          "aria-checked": () => String(mode.value === id),
-          onclick: () => editTransient({ mode: id }, label.toLowerCase()),
-        }, label)
-      ),
-    ),
+    segments("Control of the valve", MODES, () => mode.value, (id) => editTransient({ mode: id }, id)),
     driveField("duration"),
     body,
     () =>
@@ -151,17 +140,6 @@ function commandCard() {
         )
         : null,
   );
-}
-
-/** Families with more dynamic effects come first.
- * @param {import("../../../types.js").Effect[]} all */
-function families(all) {
-  /** @type {Map<string, import("../../../types.js").Effect[]>} */
-  const groups = new Map();
-  for (const e of all) groups.set(e.family, [...groups.get(e.family) ?? [], e]);
-  const staticShare = (/** @type {import("../../../types.js").Effect[]} */ list) =>
-    list.filter(isStatic).length / list.length;
-  return new Map([...groups].sort(([, a], [, b]) => staticShare(a) - staticShare(b)));
 }
 
 export function inputCards() {
@@ -187,13 +165,13 @@ export function inputCards() {
     loadCard(),
     supplyCard(),
     airCard(),
-    effectsCard({
-      preset: presetEffects,
-      active: computed(() => design.value.effects ?? presetEffects.value),
-      count: () => Object.keys(run.value?.model.effects ?? presetEffects.value).length,
-      defaults: () => run.value?.model.defaults,
-      message: messageWithin,
-      families,
-    }),
   ];
 }
+
+export const driveEffects = () =>
+  effectsRow("transient", {
+    preset: presetEffects,
+    active: computed(() => design.value.effects ?? presetEffects.value),
+    defaults: () => run.value?.model.defaults,
+    message: messageWithin,
+  });

@@ -7,6 +7,7 @@ import { ApiError } from "../../../server/client.js";
 import { number, scaleOf, toShown } from "../../../format.js";
 import { palette } from "../../../plots/theme.js";
 import { figureRows, inputRows } from "./rows.js";
+import { differenceText, pinNames } from "../run-names.js";
 import { MOST_PINS } from "../document.js";
 import { at } from "../../../paths.js";
 import { documentNow, editTransient, muscleName, run, transient } from "../model.js";
@@ -33,9 +34,7 @@ function nameOf(d) {
     asText("load.mass", "mass"),
     asText("supply.pressure", "pressure"),
   ];
-  const name = base.filter(Boolean).join(" · ");
-  const taken = new Set(pins.peek().map((p) => p.name));
-  for (let k = 2, next = name;; next = `${name} (${k++})`) if (!taken.has(next)) return next;
+  return base.filter(Boolean).join(" · ");
 }
 
 export function pin() {
@@ -53,7 +52,7 @@ function columns() {
     const answer = runs.get(pinKey(p.drive));
     const wrong = answer instanceof ApiError ? answer.words : null;
     return {
-      name: p.name,
+      name: pinNames.value[i],
       drive: p.drive,
       run: answer instanceof ApiError ? null : answer ?? null,
       color: colours.value[i],
@@ -61,7 +60,7 @@ function columns() {
     };
   });
   return [...pinned, {
-    name: "now",
+    name: (pins.value.length && differenceText(pins.value[0].drive, documentNow())) || "now",
     drive: documentNow(),
     run: run.value,
     color: palette.value.accent,

@@ -2,85 +2,17 @@
 // The rows of the table of pinned runs: different inputs, and figures with their change from the baseline.
 import { figure } from "../../../facts.js";
 import { units } from "../../../state.js";
-import { effectsById } from "../../../store.js";
-import {
-  brief,
-  capitalized,
-  number,
-  plainScale,
-  quantityOf,
-  readable,
-  scaleOf,
-  toShown,
-} from "../../../format.js";
-import { at } from "../../../paths.js";
-import { SPECS } from "../inputs/fields.js";
+import { brief, scaleOf } from "../../../format.js";
 import { greatestOf, JOINT } from "../plots/joint.js";
 import { timeWindow } from "../model.js";
-import { signalField } from "../inputs/signals.js";
 import { figureName, figureOf, TIMING } from "../figures/timing.js";
-import { siNumber } from "../../../quantities.js";
+import { flat, inputOf, inputText } from "../run-names.js";
 
 /** @typedef {import("../../../types.js").Run} Run */
 /** @typedef {import("../../../format.js").Quantity} Quantity */
-/** @typedef {import("../../../format.js").Scale} Scale */
 /** @typedef {import("../../../types.js").Drive} Drive */
 /** @typedef {{name: string, drive: Drive, run: Run | null, color: string, wrong: string | null}} Column */
 /** @typedef {{label: string, unit: string, texts: string[], deltas: (number | null)[]}} Row */
-
-/** All values of a document by their path. @param {any} part @param {string} [path]
- * @returns {Record<string, unknown>} */
-function flat(part, path = "") {
-  if (typeof part !== "object" || part === null || Array.isArray(part)) return { [path]: part };
-  const kids = Object.entries(part);
-  if (!kids.length) return { [path]: "on" };
-  return Object.assign({}, ...kids.map(([key, value]) => flat(value, path ? `${path}.${key}` : key)));
-}
-
-/** @type {Record<string, string>} */
-const NAMES = {
-  "muscle.preset": "Muscle",
-  "muscle.nominal_length": figure("geometry.nominal_length").label,
-  "valve.preset": "Valve",
-  "tube.preset": "Tube",
-  "command.shape": "Command",
-  "controller.reference.shape": "Reference",
-  "load.force.shape": "External force",
-  "load.arrangement": "Arrangement",
-};
-
-/** Name and scale of an input. @param {string} path @param {Drive} drive
- * @returns {{label: string, scale: Scale | null}} */
-function inputOf(path, drive) {
-  const system = units.value;
-  const [part, id, name] = path.split(".");
-  const effect = part === "effects" ? effectsById.value.get(id) : null;
-  if (effect) {
-    const unit = effect.parameters.find((p) => p.name === name)?.unit ?? "1";
-    const quantity = quantityOf(unit, name);
-    const label = name ? `${effect.title}: ${readable(name)}` : effect.title;
-    return { label, scale: quantity ? scaleOf(quantity, system) : plainScale(unit) };
-  }
-  const spec = SPECS[path];
-  if (spec) {
-    const scale = spec.unit ? { unit: spec.unit, factor: 1, digits: 4 } : scaleOf(spec.quantity, system);
-    return { label: spec.label, scale };
-  }
-  const signal = signalField(path, at(drive, path.replace(/\.[^.]*$/, "")));
-  if (signal) return { label: signal.label, scale: scaleOf(signal.quantity, system) };
-  const isLength = /length|diameter|thickness/.test(path);
-  const label = NAMES[path] ?? capitalized(readable(path.replaceAll(".", ", ")));
-  return { label, scale: isLength ? scaleOf("length", system) : null };
-}
-
-/** @param {unknown} value @param {Scale | null} scale */
-function inputText(value, scale) {
-  if (value === undefined || value === null) return "–";
-  if (Array.isArray(value)) return `${value.length} values`;
-  const si = siNumber(value);
-  if (si === null) return String(value);
-  return scale ? `${number(toShown(si, scale), scale.digits)} ${scale.unit}`.trim() : number(si, 6);
-}
 
 /** Rows of the inputs that are not the same in all runs. @param {Column[]} all @returns {Row[]} */
 export function inputRows(all) {

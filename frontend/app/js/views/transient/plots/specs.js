@@ -12,9 +12,8 @@ import { intervals, measuredColumn, measuredPosition, resampled, withoutImpacts 
 /** @typedef {import("../../../format.js").System} System */
 /** @typedef {import("../../../types.js").Run} Run */
 /** @typedef {import("../../../types.js").Measured} Measured */
-/** @typedef {import("../../../types.js").Lower} Lower */
 /** @typedef {{name: string, run: Run, index: number}} Pinned */
-/** @typedef {{run: Run, system: System, window: [number, number], lower: Lower, supply: number | null, lever: number,
+/** @typedef {{run: Run, system: System, window: [number, number], tolerance: number, bare: boolean, supply: number | null, lever: number,
  *   pinned: Pinned[], measured: Measured | null, switches: number[], zoomed: boolean,
  *   brush: (range: [number, number] | null) => void}} View */
 /** A column of a run as one line of a plot.
@@ -66,7 +65,7 @@ export function overTime(v, p, o) {
       : [{ text: line.label, x: run.time[k], y: value, color: line.color }];
   });
   return {
-    x: { title: "Time (s)", range: span },
+    x: { title: "Time (s)", range: span, bare: v.bare },
     y: {
       title: axisTitle(title, quantity, system),
       range: steadyRange(`run ${key}${system}${v.zoomed}`, low, high),
@@ -145,13 +144,34 @@ export function positionSpec(v, p) {
     }
   }
   lines.push({ id: "position", name: "position", values: run.position, color: p.accent });
-  return overTime(v, p, {
+  const spec = overTime(v, p, {
     key: "position",
     title: figure("run.position").label,
     quantity: "length",
     lines,
     dots: measuredPosition(v.run, v.measured, v.window, v.lever),
   });
+  const judged = toleranceOf(run, v.tolerance);
+  if (judged) {
+    for (const kind of /** @type {const} */ (["inside", "outside"])) {
+      const isSo = judged.inside.map((is) => is === (kind === "inside"));
+      spec.bands?.push(...intervals(run.time, isSo).map((x) => ({ x, kind })));
+    }
+  }
+  return spec;
+}
+
+/** Where the position is within a share of the range of its reference; null without a reference that moves.
+ * @param {Run} run @param {number} tolerance */
+export function toleranceOf(run, tolerance) {
+  const { reference, position } = run;
+  if (!reference) return null;
+  const [low, high] = extent([reference]), most = tolerance * (high - low);
+  if (!(most > 0)) return null;
+  const inside = position.map((x, i) =>
+    x != null && reference[i] != null && Math.abs(x - Number(reference[i])) <= most
+  );
+  return { most, inside };
 }
 
 /** The second muscle of an antagonist pair. @param {Palette} p @param {(number | null)[]} values @returns {Line} */
@@ -215,7 +235,10 @@ export const speedSpec = (v, p) =>
     key: "speed",
     title: figure("run.velocity").label,
     quantity: "speed",
-    lines: [{ id: "velocity", name: "speed", values: v.run.velocity, color: p.accent }],
+    lines: [
+      ...pinLines(v, p, (r) => r.velocity),
+      { id: "velocity", name: "velocity", values: v.run.velocity, color: p.accent },
+    ],
     dots: measuredColumn(v.measured, v.window, ["velocity"], (lengthening) => -lengthening / v.lever),
     zero: true,
     least: 0.01,
@@ -236,80 +259,77 @@ export function accelerationSpec(v, p) {
 }
 
 /** @param {View} v @param {Palette} p @returns {Spec} */
-export function lowerSpec(v, p) {
-  const { run, lower } = v;
+export function flowSpec(v, p) {
+  const { run } = v, vented = run.exhaust_flow.map((x) => x == null ? null : -x);
   /** @type {Line[]} */
-  let lines = [];
-  if (lower === "flow") {
-    lines = [
-      {
-        id: "supply",
-        name: "supply",
-        values: run.supply_flow,
-        color: p.soft,
-        dash: "dot",
-        width: 1.4,
-      },
-      {
-        id: "exhaust",
-        name: "atmosphere",
-        values: run.exhaust_flow.map((x) => x == null ? null : -x),
-        color: p.second,
-        dash: "dash",
-        width: 1.5,
-      },
-      {
-        id: "flow",
-        name: run.joint?.counter_pressure ? "muscle 1" : "muscle",
-        values: run.mass_flow,
-        color: p.accent,
-      },
-    ];
-    if (run.joint?.counter_mass_flow) lines.push(second(p, run.joint.counter_mass_flow));
-    return overTime(v, p, {
-      key: lower,
-      title: figure("run.mass_flow").label,
-      quantity: "flow",
-      lines,
-      zero: true,
+  const lines = [
+    ...pinLines(v, p, (r) => r.mass_flow),
+    { id: "supply", name: "supply", values: run.supply_flow, color: p.soft, dash: "dot", width: 1.4 },
+    { id: "exhaust", name: "atmosphere", values: vented, color: p.second, dash: "dash", width: 1.5 },
+    { id: "flow", name: run.joint?.counter_pressure ? "muscle 1" : "muscle", values: run.mass_flow, color: p.accent },
+  ];
+  if (run.joint?.counter_mass_flow) lines.push(second(p, run.joint.counter_mass_flow));
+  return overTime(v, p, {
+    key: "flow",
+    title: figure("run.mass_flow").label,
+    quantity: "flow",
+    lines,
+    zero: true,
+  });
+}
+
+/** @param {View} v @param {Palette} p @returns {Spec} */
+export function forceSpec(v, p) {
+  const { run } = v, name = run.joint?.counter_pressure ? "muscle 1" : "force of the muscle";
+  /** @type {Line[]} */
+  const lines = pinLines(v, p, (r) => r.force);
+  if (run.friction.some((x) => x !== 0)) {
+    const values = run.friction, label = figure("run.friction").label.toLowerCase();
+    lines.push({ id: "friction", name: label, values, color: p.load, dash: "dot", width: 1.5 });
+  }
+  if (run.load_force.some((x) => x !== 0)) {
+    const color = run.joint ? p.soft : p.second;
+    lines.push({
+      id: "external",
+      name: "external force",
+      values: run.load_force,
+      color,
+      dash: "dash",
+      width: 1.5,
     });
   }
-  if (lower === "force") {
-    const name = run.joint?.counter_pressure ? "muscle 1" : "force of the muscle";
-    lines = [{ id: "force", name, values: run.force, color: p.accent }];
-    if (run.joint?.counter_force) lines.unshift(second(p, run.joint.counter_force));
-    const outer = run.load_force.some((x) => x !== 0);
-    if (outer) {
-      lines.unshift({
-        id: "external",
-        name: "external force",
-        values: run.load_force,
-        color: run.joint ? p.soft : p.second,
-        dash: "dash",
-        width: 1.5,
-      });
-    }
-    if (run.friction.some((x) => x !== 0)) {
-      const name = figure("run.friction").label.toLowerCase();
-      lines.unshift({ id: "friction", name, values: run.friction, color: p.load, dash: "dot", width: 1.5 });
-    }
-    return overTime(v, p, {
-      key: lower,
-      title: figure("run.force").label,
-      quantity: "force",
-      lines,
-      dots: measuredColumn(v.measured, v.window, ["force"]),
-      zero: true,
-    });
-  }
-  lines = [
-    { id: "command", name: "command", values: run.command, color: p.second, dash: "dash", width: 1.5 },
-    { id: "opening", name: "opening", values: run.opening, color: p.accent },
+  if (run.joint?.counter_force) lines.push(second(p, run.joint.counter_force));
+  lines.push({ id: "force", name, values: run.force, color: p.accent });
+  return overTime(v, p, {
+    key: "force",
+    title: figure("run.force").label,
+    quantity: "force",
+    lines,
+    dots: measuredColumn(v.measured, v.window, ["force"]),
+    zero: true,
+  });
+}
+
+/** @param {View} v @param {Palette} p @returns {Spec} */
+export function valveSpec(v, p) {
+  const { run } = v;
+  /** @type {Line[]} */
+  const lines = [
+    ...pinLines(v, p, (r) => r.command),
+    {
+      id: "opening",
+      name: "opening of the valve",
+      values: run.opening,
+      color: p.second,
+      dash: "dash",
+      width: 1.5,
+    },
     ...(run.joint?.counter_command ? [{ ...second(p, run.joint.counter_command), name: "command 2" }] : []),
+    { id: "command", name: "command", values: run.command, color: p.accent },
   ];
   return overTime(v, p, {
-    key: lower,
-    title: "Valve",
+    key: "valve",
+    title: figure("run.command").label,
     quantity: "ratio",
     lines,
     dots: measuredColumn(v.measured, v.window, ["command"]),
