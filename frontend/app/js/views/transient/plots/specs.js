@@ -266,7 +266,12 @@ export function flowSpec(v, p) {
     ...pinLines(v, p, (r) => r.mass_flow),
     { id: "supply", name: "supply", values: run.supply_flow, color: p.soft, dash: "dot", width: 1.4 },
     { id: "exhaust", name: "atmosphere", values: vented, color: p.second, dash: "dash", width: 1.5 },
-    { id: "flow", name: run.joint?.counter_pressure ? "muscle 1" : "muscle", values: run.mass_flow, color: p.accent },
+    {
+      id: "flow",
+      name: run.joint?.counter_pressure ? "muscle 1" : "muscle",
+      values: run.mass_flow,
+      color: p.accent,
+    },
   ];
   if (run.joint?.counter_mass_flow) lines.push(second(p, run.joint.counter_mass_flow));
   return overTime(v, p, {
