@@ -121,9 +121,9 @@ def test_right_entries_are_not_doubted(c10: float, wave: float) -> None:
 def test_a_thicker_braid_is_a_twin_of_a_stronger_force() -> None:
     """The ideal force goes with the square of the diameter: the data cannot tell the two.
 
-    A caliper decides it, so it is asked first; its odds are those before any data, 0.1 against 0.3 / 0.7. Over
-    its range, 1.1 of the stated diameter, the force changes by 2 x 1.1 x 1.1 of what it is, and by 1.21 over
-    that of the factor, 1: what may be more before any data says half as much.
+    A caliper decides it, so it is asked first; its odds are those before any data, 0.1 against 0.3 / 0.7.
+    Over its range, 1.1 of the stated diameter, the force changes by 2 x 1.1 x 1.1 of what it is, and by 1.21
+    over that of the factor, 1: what may be more before any data says half as much.
     """
     result = diagnosis(replace_diameter(MUSCLE, 1.1))
     assert result.added == ("effectiveness",)
