@@ -122,12 +122,14 @@ def test_a_thicker_braid_is_a_twin_of_a_stronger_force() -> None:
     """The ideal force goes with the square of the diameter: the data cannot tell the two.
 
     A caliper decides it, so it is asked first; its odds are those before any data, 0.1 against 0.3 / 0.7.
+    Over its range, 1.1 of the stated diameter, the force changes by 2 x 1.1 x 1.1 of what it is, and by 1.21
+    over that of the factor, 1: what may be more before any data says half as much.
     """
     result = diagnosis(replace_diameter(MUSCLE, 1.1))
     assert result.added == ("effectiveness",)
     leading = result.context[0]
     assert (leading.entry.hypothesis, leading.stands) == ("braid_diameter", True)
-    assert leading.confidence == pytest.approx(1.0 / (1.0 + 0.3 / 0.7 / 0.1), abs=0.03)
+    assert leading.confidence == pytest.approx(1.0 / (1.0 + 2.0 * 0.3 / 0.7 / 0.1), abs=0.002)
 
 
 @pytest.mark.parametrize(("head", "asked"), [("", True), ("# pressure: gauge", False)])
