@@ -65,6 +65,7 @@ STUDY = {
 
 #: Every route of the interface: (method, path of the description) -> (path, what is sent).
 REQUESTS: dict[tuple[str, str], tuple[str, dict[str, Any]]] = {
+    ("POST", "/api/asked"): ("/api/asked", {"json": {"text": "mine-20, 6 bar, 20 kg"}}),
     ("POST", "/api/curves"): ("/api/curves", {"json": {"muscle": MINE}}),
     ("POST", "/api/signatures"): (
         "/api/signatures", {"json": {"muscle": MINE, "effect": "coulomb_friction"}},

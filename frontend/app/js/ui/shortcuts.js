@@ -9,8 +9,9 @@ import { openDialog } from "./dialog.js";
 /** Keys in a row, and those of the element that has the focus, for the list only. @type {[string, string][]} */
 const ELSEWHERE = [
   ["G D", "Go to Design; likewise G T Transient, G C Compare & diagnose, G P Catalogue, G S Studies"],
-  ["← → ↑ ↓", "Move a slider, a value or the load line; Shift or Page keys: ten steps"],
-  ["Enter", "Apply the typed value; units are allowed: 30 cm, 6 bar"],
+  ["← → ↑ ↓", "Step a value, a choice, a cursor or the load line; Shift or Page keys: ten steps"],
+  ["B", "In a time strip: put the second cursor, or take it away; a click puts it too"],
+  ["Enter", "Apply the typed value; units and expressions are allowed: 30 cm, 20 kg, 20*9.81"],
   ["Esc", "Close a dialog, leave a field unchanged"],
   ["Drag, double click", "Zoom into a plot, reset the zoom"],
 ];

@@ -66,6 +66,7 @@ export function askLine(held, take) {
       wrong.value = error.words;
     }
   }
+  const follow = () => (words.style.transform = `translateX(${-input.scrollLeft}px)`);
   const input = h("input", {
     id: "ask",
     type: "text",
@@ -75,7 +76,7 @@ export function askLine(held, take) {
     placeholder: "DMSP-20 of 300 mm at 6 bar, 20 kg; which pressure for 15 %?",
     "aria-label": "Ask: muscle, length, pressure, load; or a task",
     "aria-describedby": "ask-said",
-    onscroll: () => (marks.scrollLeft = input.scrollLeft),
+    onscroll: follow,
     oninput: () => (marks.hidden = true),
     onblur: () => {
       if (input.value.trim() === "") input.value = text.peek();
@@ -85,13 +86,15 @@ export function askLine(held, take) {
       if (e.key === "Enter" && input.value.trim()) ask(input.value);
     },
   });
-  const marks = h("div", { class: "ask-marks", "aria-hidden": "true" }, () => {
+  const words = h("span", null, () => {
     const line = reading.value;
     return line ? marked(line, text.value) : null;
   });
+  const marks = h("div", { class: "ask-marks", "aria-hidden": "true" }, words);
   effect(() => {
     input.value = text.value;
     marks.hidden = !reading.value;
+    follow();
   });
   return h(
     "div",
