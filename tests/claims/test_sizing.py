@@ -66,15 +66,13 @@ def test_a_remedy_is_the_smallest_that_works_and_works() -> None:
 
 def test_a_remedy_that_carries_the_load_is_quick_enough_or_says_how_slow_it_is() -> None:
     """A stroke of 200 mm in 0.5 s, with more room than there is: each remedy is made a task of its own."""
-    several = {"muscles": ["DMSP-10", "DMSP-40"], "valves": ["MPYE-5-1/8-HF"], "tube_length": "1 m"}
+    parts = {**ONE, "muscles": ["DMSP-40"], "tubes": ["PUN-H-8x1.25"]}
 
     def of_stroke(**changes: Any) -> Any:
-        return sized(catalogue=several, stroke="200 mm", **changes)
+        return sized(catalogue=parts, stroke="200 mm", **changes)
 
     refused = of_stroke().rejected
-    assert {(each.muscle, each.parallel) for each in refused} == {
-        (muscle, count) for muscle in ("DMSP-10", "DMSP-40") for count in (1, 2)
-    }
+    assert {(each.muscle, each.parallel) for each in refused} == {("DMSP-40", 1), ("DMSP-40", 2)}
     slower = 0
     for each in refused:
         assert each.why.startswith(("one ", "2 × ")), "the sentence has its subject"
