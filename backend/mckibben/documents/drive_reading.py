@@ -23,6 +23,7 @@ from mckibben.documents.drive_parts import (
     pwm_of,
     quick_exhaust_of,
     regulator_of,
+    stated_joint,
     tube_of,
     unverified_of,
     valve_of,
@@ -383,13 +384,7 @@ def joint_path_of(document: DriveDocument, model: StaticModel) -> JointPath | No
         if load.joint is not None:
             raise InputError("only a joint has paths", field="load.joint", hint='"arrangement": "joint"')
         return None
-    joint = load.joint
-    if joint is None:
-        raise InputError(
-            "load.joint is missing",
-            field="load.joint",
-            hint='e.g. {"muscles": [{"path": {"lever": "30 mm"}}], "inertia": "0.01 kg*m^2"}',
-        )
+    joint = stated_joint(load)
     for name in sorted(document.stops.model_fields_set - {"restitution"}):
         raise InputError(
             "a joint stops at angles", field=f"stops.{name}", hint='"load": {"joint": {"stops": {...}}}'
