@@ -206,7 +206,7 @@ def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False)
     _check_flow(valve, command, None if control is None else control.controller)
     tube, control_valve = tube_of(document.tube, tube_preset), flow_control_of(document.flow_control)
     if path is not None:
-        start = with_joint_effects(start, document)
+        start = with_joint_effects(start, document, studio)
         model = studio.static_model(start)
     lowest, highest = (0.0, 0.25) if path is not None else stops_of(document, model)
     if document.start.position is not None and document.start.reached is not None:
@@ -436,15 +436,20 @@ def _check_path(path: MusclePath, low: float, high: float, *, sense: float, long
         )
 
 
-def with_joint_effects(start: StartModel, document: DriveDocument) -> StartModel:
+def with_joint_effects(start: StartModel, document: DriveDocument, studio: Studio) -> StartModel:
     """The model with the friction of the bearing and the weight of the link of its joint."""
     joint = document.load.joint
-    added: dict[str, dict[str, float]] = {}
+    stated: dict[str, float] = {}
     if joint is not None and joint.friction:
-        added["bearing_friction"] = {"torque": joint.friction}
+        stated["friction"] = joint.friction
     if joint is not None and joint.link is not None:
-        moment = weight_torque(mass=joint.link.mass, centre=joint.link.centre)
-        added["link_weight"] = {"moment": moment, "level_at": joint.link.level_at}
+        stated["link.moment"] = weight_torque(mass=joint.link.mass, centre=joint.link.centre)
+        stated["link.level_at"] = joint.link.level_at
+    added: dict[str, dict[str, float]] = {}
+    for name, effect in studio.catalogue.items():
+        given = {p.name: stated[p.of_joint] for p in effect.parameters if p.of_joint in stated}
+        if given:
+            added[name] = given
     # They change nothing of the muscle that was measured.
     return replace(start, effects={**added, **start.effects}, fitted=start.fit) if added else start
 

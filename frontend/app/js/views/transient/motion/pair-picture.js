@@ -1,5 +1,6 @@
 // @ts-check
-// An antagonist pair from the side, to scale: both muscles, cable, pulley with pointer and stops.
+// A joint from the side, to scale: one muscle or both, cable, pulley with pointer and stops. A cam is drawn as the
+// pulley of its lever in the middle.
 import { computed, effect } from "../../../reactive.js";
 import { row } from "../cursor.js";
 import { numberAt, run } from "../model.js";
@@ -17,10 +18,27 @@ function widthAt(g, k) {
   return (g.braid_diameter * Math.sqrt(1 - cosine ** 2)) / Math.sin(g.braid_angle);
 }
 
+/** Contraction at a braid diameter, the other way round. @param {Run["geometry"]} g @param {number} diameter */
+function contractionAt(g, diameter) {
+  const sine = Math.min(1, diameter * Math.sin(g.braid_angle) / g.braid_diameter);
+  return 1 - Math.sqrt(1 - sine ** 2) / Math.cos(g.braid_angle);
+}
+
+/** Radius of the pulley: way of its rim over the angle. @param {Run} r */
+function rimOf(r) {
+  const angles = r.joint?.angle ?? [];
+  let most = -1;
+  angles.forEach((/** @type {number | null} */ a, /** @type {number} */ i) => {
+    if (a != null && (most < 0 || Math.abs(a) > Math.abs(angles[most] ?? 0))) most = i;
+  });
+  return most >= 0 && angles[most] ? (r.position[most] ?? 0) / (angles[most] ?? 1) : 0;
+}
+
 /** Scale and positions, which stay the same while the cursor moves. @param {Run} r @param {number} width @param {number} radius */
 function sceneOf(r, width, radius) {
   const rest = r.geometry.nominal_length, middle = middleOf(r);
-  const { position_min: low, position_max: high } = r.limits, reach = Math.max(-low, high);
+  const { position_min: low, position_max: high } = r.limits;
+  const reach = r.joint?.counter_pressure ? Math.max(-low, high) : -low;
   const longest = rest * (1 - middle) + reach, widest = widthAt(r.geometry, middle + reach / rest);
   const tall = 2 * Math.max(radius, widest / 2) + widest;
   const scale = Math.min(
@@ -49,11 +67,11 @@ export function pairPicture(width) {
     class: "side double",
     role: "img",
     height: HEIGHT,
-    "aria-label": "Both muscles and the pulley from the side",
+    "aria-label": "The muscles and the pulley of the joint from the side",
   });
   svg.append(wall, ...cables, wheel, ...bodies, ...names, zero, ...stops, hand, hub);
 
-  const radius = computed(() => numberAt("load.pulley_radius") ?? 0);
+  const radius = computed(() => numberAt("load.pulley_radius") ?? (run.value ? rimOf(run.value) : 0));
   const scene = computed(() => {
     const r = run.value;
     const room = width.value > LEFT + MARGIN + GAP; // the width is not known before the first layout
@@ -71,6 +89,9 @@ export function pairPicture(width) {
     const s = scene.value, r = run.value;
     svg.setAttribute("viewBox", `0 0 ${width.value} ${HEIGHT}`);
     if (!s || !r) return;
+    for (const part of [bodies[1], cables[1], names[1]]) {
+      part.setAttribute("visibility", r.joint?.counter_pressure ? "visible" : "hidden");
+    }
     place(wheel, { cx: s.x, cy: s.y, r: s.rim });
     place(hub, { cx: s.x, cy: s.y });
     spoke(zero, s, 0, s.rim, s.rim + 7);
@@ -88,8 +109,14 @@ export function pairPicture(width) {
       1,
     );
     const cap = (s.scale * r.geometry.braid_diameter) / 2;
+    const cams = numberAt("load.pulley_radius") == null;
+    const contractions = [
+      r.contraction[i] ?? 0,
+      contractionAt(r.geometry, r.joint?.counter_diameter?.[i] ?? 0),
+    ];
     [1, -1].forEach((sense, n) => {
-      const k = s.middle + (sense * position) / s.rest, length = s.scale * s.rest * (1 - k);
+      const k = cams ? contractions[n] : s.middle + (sense * position) / s.rest;
+      const length = s.scale * s.rest * (1 - k);
       const y = s.rows[n], x = LEFT + length;
       place(bodies[n], {
         d: outline(length, cap, (s.scale * widthAt(r.geometry, k)) / 2, y),
