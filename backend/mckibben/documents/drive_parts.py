@@ -14,6 +14,7 @@ from mckibben.documents.drive_air import (
     TubeInput,
     ValveInput,
 )
+from mckibben.documents.joint_parts import JointInput
 from mckibben.physics import gas
 from mckibben.physics.errors import InputError
 from mckibben.presets import FittingPreset, TubePreset, ValvePreset
@@ -227,19 +228,28 @@ def port_volume_of(fittings: Sequence[Part | None]) -> float:
     return sum(_figure(fitting, "port_volume", "m^3") or 0.0 for fitting in fittings)
 
 
+def stated_joint(load: LoadInput) -> JointInput:
+    """The joint of a load of that arrangement.
+
+    Raises:
+        InputError: it is missing.
+    """
+    if load.joint is None:
+        raise InputError(
+            "load.joint is missing",
+            field="load.joint",
+            hint='e.g. {"muscles": [{"path": {"lever": "30 mm"}}], "inertia": "0.01 kg*m^2"}',
+        )
+    return load.joint
+
+
 def joint_load(load: LoadInput, path: JointPath) -> Load:
     """The load of a joint: its inertia and its torsion spring at the rim.
 
     Raises:
         InputError: the joint has no inertia, or the load states what belongs to one that moves along a line.
     """
-    joint = load.joint
-    if joint is None:
-        raise InputError(
-            "load.joint is missing",
-            field="load.joint",
-            hint='e.g. {"muscles": [{"path": {"lever": "30 mm"}}], "inertia": "0.01 kg*m^2"}',
-        )
+    joint = stated_joint(load)
     for name in sorted(load.model_fields_set - {"joint", "arrangement"}):
         raise InputError(
             f"a joint has no {name.replace('_', ' ')} of its load",

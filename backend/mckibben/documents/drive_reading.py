@@ -23,6 +23,7 @@ from mckibben.documents.drive_parts import (
     pwm_of,
     quick_exhaust_of,
     regulator_of,
+    stated_joint,
     tube_of,
     unverified_of,
     valve_of,
@@ -205,7 +206,7 @@ def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False)
     _check_flow(valve, command, None if control is None else control.controller)
     tube, control_valve = tube_of(document.tube, tube_preset), flow_control_of(document.flow_control)
     if path is not None:
-        start = with_joint_effects(start, document)
+        start = with_joint_effects(start, document, studio)
         model = studio.static_model(start)
     lowest, highest = (0.0, 0.25) if path is not None else stops_of(document, model)
     if document.start.position is not None and document.start.reached is not None:
@@ -383,13 +384,7 @@ def joint_path_of(document: DriveDocument, model: StaticModel) -> JointPath | No
         if load.joint is not None:
             raise InputError("only a joint has paths", field="load.joint", hint='"arrangement": "joint"')
         return None
-    joint = load.joint
-    if joint is None:
-        raise InputError(
-            "load.joint is missing",
-            field="load.joint",
-            hint='e.g. {"muscles": [{"path": {"lever": "30 mm"}}], "inertia": "0.01 kg*m^2"}',
-        )
+    joint = stated_joint(load)
     for name in sorted(document.stops.model_fields_set - {"restitution"}):
         raise InputError(
             "a joint stops at angles", field=f"stops.{name}", hint='"load": {"joint": {"stops": {...}}}'
@@ -441,15 +436,20 @@ def _check_path(path: MusclePath, low: float, high: float, *, sense: float, long
         )
 
 
-def with_joint_effects(start: StartModel, document: DriveDocument) -> StartModel:
+def with_joint_effects(start: StartModel, document: DriveDocument, studio: Studio) -> StartModel:
     """The model with the friction of the bearing and the weight of the link of its joint."""
     joint = document.load.joint
-    added: dict[str, dict[str, float]] = {}
+    stated: dict[str, float] = {}
     if joint is not None and joint.friction:
-        added["bearing_friction"] = {"torque": joint.friction}
+        stated["friction"] = joint.friction
     if joint is not None and joint.link is not None:
-        moment = weight_torque(mass=joint.link.mass, centre=joint.link.centre)
-        added["link_weight"] = {"moment": moment, "level_at": joint.link.level_at}
+        stated["link.moment"] = weight_torque(mass=joint.link.mass, centre=joint.link.centre)
+        stated["link.level_at"] = joint.link.level_at
+    added: dict[str, dict[str, float]] = {}
+    for name, effect in studio.catalogue.items():
+        given = {p.name: stated[p.of_joint] for p in effect.parameters if p.of_joint in stated}
+        if given:
+            added[name] = given
     # They change nothing of the muscle that was measured.
     return replace(start, effects={**added, **start.effects}, fitted=start.fit) if added else start
 

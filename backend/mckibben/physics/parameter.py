@@ -106,6 +106,7 @@ class Parameter:
         default_at: blocked force at `USUAL_PRESSURE` of the muscle for which the default is stated [N]; that
             of another muscle is the same share of its own (`default_of`). None = the default is the same for
             all muscles.
+        of_joint: the field of the joint of a drive that states it, e.g. "friction" or "link.moment".
     """
 
     name: str
@@ -125,6 +126,7 @@ class Parameter:
     across: bool = False
     with_force: bool = False
     default_at: float | None = None
+    of_joint: str = ""
 
     @property
     def powers(self) -> tuple[int, int, int]:

@@ -31,6 +31,7 @@ EFFECT = Effect(
             source=_RANGE,
             description="Friction torque of the bearing.",
             off=0.0,
+            of_joint="friction",
         ),
     ),
     slots={"joint_torque": joint_torque},

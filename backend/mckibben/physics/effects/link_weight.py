@@ -35,6 +35,7 @@ EFFECT = Effect(
             source=_RANGE,
             description="Mass times gravity times distance of its centre from the axis.",
             off=0.0,
+            of_joint="link.moment",
         ),
         Parameter(
             "level_at",
@@ -45,6 +46,7 @@ EFFECT = Effect(
             upper=3.2,
             source=Source("the link hangs, stands or lies at the angle 0", "E"),
             description="Angle at which the link is level.",
+            of_joint="link.level_at",
         ),
     ),
     slots={"joint_torque": joint_torque},
