@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import sin
 
@@ -44,8 +45,8 @@ class Run:
     """
 
     time: np.ndarray
-    states: dict[str, np.ndarray]
-    outputs: dict[str, np.ndarray]
+    states: Mapping[str, np.ndarray]
+    outputs: Mapping[str, np.ndarray]
     events: tuple[Event, ...]
     start: Start
     outcome: Outcome

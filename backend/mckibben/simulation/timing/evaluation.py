@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache, reduce
 from math import ceil
@@ -121,9 +121,30 @@ def of_figures(run: Run, grid: Grid) -> Run:
     if grid.figures is None:
         return run
     kept = grid.figures[grid.figures < len(run.time)]
-    states = {name: column[kept] for name, column in run.states.items()}
-    outputs = {name: column[kept] for name, column in run.outputs.items()}
+    states, outputs = _AtTimes(run.states, kept), _AtTimes(run.outputs, kept)
     return replace(run, time=run.time[kept], states=states, outputs=outputs)
+
+
+class _AtTimes(Mapping[str, Array]):
+    """Columns at some of their rows, each when it is first read: figures need half of them."""
+
+    def __init__(self, columns: Mapping[str, Array], rows: Array) -> None:
+        self._columns, self._rows = columns, rows
+        self._found: dict[str, Array] = {}
+
+    def __getitem__(self, name: str) -> Array:
+        if name not in self._found:
+            self._found[name] = self._columns[name][self._rows]
+        return self._found[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._columns
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        return len(self._columns)
 
 
 def trace_of(run: Run) -> Trace | None:
