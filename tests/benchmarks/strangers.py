@@ -18,9 +18,9 @@ were not found to have implausible: seed 1 97, seed 2 96, and seed 3, opened onc
 nothing hidden 13, unknown 5, held out 9, start model 3, scaling 3; surplus 7, Brier score 0.037; rows set
 aside where none is bad 10, in 2 of 95 cases, before that 54 in 8.
 With effects and entries weighed beside a free surface that knows what acts through a reading: seed 5, opened
-once, 96 (unknown 7, wrong entry 10, surplus 2, Brier score 0.027); with the odds of an unknown effect, which
-a case of it taught, seed 6, opened once, 98: single 29, several 12, nothing hidden 14, unknown 7, held out 10,
-wrong entry 10, right entry 3, bad rows 5, start model 4, scaling 4; surplus 2, Brier score 0.031.
+once, 96 (unknown 7, wrong entry 10, surplus 2, Brier score 0.027); with the odds of an unknown effect,
+which a case of it taught, seed 6, opened once, 98: single 29, several 12, nothing hidden 14, unknown 7, held
+out 10, wrong entry 10, right entry 3, bad rows 5, start model 4, scaling 4; surplus 2, Brier score 0.031.
 """
 
 from __future__ import annotations
