@@ -173,6 +173,51 @@ def curves(
         remark(f"misprint of the source: {misprint}")
 
 
+@app.command()
+@with_shared_options
+def ask(
+    question: Annotated[
+        str,
+        typer.Argument(
+            help='In one line: "How far does a DMSP-20 of 300 mm at 6 bar lift 20 kg?", "... pressure for 15 %".'
+        ),
+    ],
+    as_json: AsJson = False,
+    *,
+    studio: Studio,
+) -> None:
+    """What a muscle does with a load at one pressure: rest, lift, stiffness, pressure for a contraction."""
+    from mckibben.application.curves.curves import CurvesQuestion
+    from mckibben.application.curves.curves import curves as curves_of
+    from mckibben.cli.options import start_model
+    from mckibben.cli.output import remark, write_json, write_summary
+    from mckibben.documents.asked import read_asked
+    from mckibben.report.summary.curves import lift_summary_of
+
+    asked = read_asked(question, [preset.id for preset in studio.library.list("muscles")])
+    for part in asked.parts:
+        if part.problem is not None:
+            remark(f"'{part.text}' is not read: {part.problem}")
+    missing = {"muscle": "DMSP-20 of 300 mm", "load": "20 kg", "pressure": "6 bar"}
+    for name, example in missing.items():
+        if getattr(asked, name) is None:
+            raise InputError(f"the question states no {name}", hint=f'"{example}"')
+    length = "" if asked.nominal_length is None else f":{1e3 * asked.nominal_length:.9g}mm"
+    start = start_model(studio, ModelOptions(f"{asked.muscle}{length}", False, ()))
+    asks = CurvesQuestion(
+        start,
+        pressures=(asked.pressure,),
+        load=asked.load,
+        at_pressure=asked.pressure,
+        at_contraction=asked.contraction,
+    )
+    result = curves_of(asks, studio)
+    if as_json:
+        write_json(result.lift)
+    else:
+        write_summary(lift_summary_of(result.lift, f"{asked.muscle}{length}"))
+
+
 class InverseName(StrEnum):
     """What is asked for."""
 

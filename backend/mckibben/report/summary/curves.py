@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from mckibben.application.curves.curves import CurvesResult
-from mckibben.facts.muscle import CHARACTERISTICS, CURVES
+from mckibben.application.curves.curves import CurvesResult, Lift
+from mckibben.facts.muscle import CHARACTERISTICS, CURVES, LIFT
 from mckibben.report.summary import Summary, Table, figure, shown
 
 _TABLE_ROWS = 11
@@ -49,6 +49,23 @@ def summary_of(result: CurvesResult, muscle: str) -> Summary:
         *dict.fromkeys(filter(None, (item.free_contraction_note for item in result.characteristics))),
         *(notice.message for notice in result.flags),
     ]  # fmt: skip
+
+
+def lift_summary_of(lift: Lift, muscle: str) -> Summary:
+    """What the muscle does with a load at one pressure, a row a figure, with its definition.
+
+    Args:
+        lift: the answer.
+        muscle: name of the muscle, for the title.
+    """
+    values = {name: getattr(lift, name) for name in LIFT}
+    rows = [
+        [LIFT[name].label, shown(LIFT[name], value), LIFT[name].definition]
+        for name, value in values.items()
+        if value is not None
+    ]
+    title = f"{muscle}: {shown(LIFT['load'], lift.load)} at {shown(LIFT['pressure'], lift.pressure)}"
+    return [Table(title, ["figure", "value", "definition"], rows), *(notice.message for notice in lift.flags)]
 
 
 def _stiffness(result: CurvesResult, muscle: str, chosen: NDArray[np.intp]) -> list[Table]:
