@@ -179,7 +179,7 @@ def ask(
     question: Annotated[
         str,
         typer.Argument(
-            help='In one line: "How far does a DMSP-20 of 300 mm at 6 bar lift 20 kg?", "... pressure for 15 %".'
+            help='In one line: "How far does a DMSP-20 of 300 mm at 6 bar lift 20 kg, pressure for 15 %?"'
         ),
     ],
     as_json: AsJson = False,
