@@ -12,7 +12,7 @@ from tests.truth import elastomer, friction, geometry, sensors
 from tests.truth.cases import BOOK, Case
 from tests.truth.composition import Hidden, accept
 from tests.truth.elastic_cases import size
-from tests.truth.joint_cases import Path, Turned, _case, _hanging, _rubbing, cam, pulley, strut
+from tests.truth.joints import Path, Turned, cam, hanging, jointed, pulley, rubbing, strut
 from tests.truth.muscle import Muscle, made
 
 REACH: dict[str, dict[str, Any]] = {
@@ -59,12 +59,12 @@ def _braid(m: Muscle) -> Hidden:
 
 
 def _bearing(m: Muscle) -> Turned:
-    rub = _rubbing(0.009 * m.blocked * 0.11 * m.nominal, 0.15)
+    rub = rubbing(0.009 * m.blocked * 0.11 * m.nominal, 0.15)
     return Turned(accept("bearing_friction"), rub=rub, name="a journal that rubs")
 
 
 def _link(m: Muscle) -> Turned:
-    weight = _hanging(0.025 * m.blocked * 0.1 * m.nominal, 0.3, 0.15)
+    weight = hanging(0.025 * m.blocked * 0.1 * m.nominal, 0.3, 0.15)
     return Turned(accept("link_weight"), weight=weight, name="a bent link")
 
 
@@ -108,7 +108,7 @@ def _recipe(name: str, told: Told, number: int) -> None:
     def make(rng: np.random.Generator, seed: int) -> Case:
         m = made(size(seed, number % 3), rng)
         reach = dict(REACH[told.path])
-        return _case(
+        return jointed(
             name, seed, m, _path(told.path, m), rng,
             turned=told.joint(m) if told.joint else Turned(),
             hidden=(told.muscle(m),) if told.muscle else (), **reach,

@@ -198,10 +198,12 @@ def ask(
     for part in asked.parts:
         if part.problem is not None:
             remark(f"'{part.text}' is not read: {part.problem}")
-    missing = {"muscle": "DMSP-20 of 300 mm", "load": "20 kg", "pressure": "6 bar"}
-    for name, example in missing.items():
-        if getattr(asked, name) is None:
-            raise InputError(f"the question states no {name}", hint=f'"{example}"')
+    if asked.muscle is None:
+        raise InputError("the question names no muscle", hint='"DMSP-20 of 300 mm"')
+    if asked.load is None:
+        raise InputError("the question states no load", hint='"20 kg"')
+    if asked.pressure is None:
+        raise InputError("the question states no pressure", hint='"6 bar"')
     length = "" if asked.nominal_length is None else f":{1e3 * asked.nominal_length:.9g}mm"
     start = start_model(studio, ModelOptions(f"{asked.muscle}{length}", False, ()))
     asks = CurvesQuestion(
@@ -211,11 +213,11 @@ def ask(
         at_pressure=asked.pressure,
         at_contraction=asked.contraction,
     )
-    result = curves_of(asks, studio)
-    if as_json:
-        write_json(result.lift)
-    else:
-        write_summary(lift_summary_of(result.lift, f"{asked.muscle}{length}"))
+    lift = curves_of(asks, studio).lift
+    if lift is not None and not as_json:
+        write_summary(lift_summary_of(lift, f"{asked.muscle}{length}"))
+    elif lift is not None:
+        write_json(lift)
 
 
 class InverseName(StrEnum):

@@ -51,7 +51,7 @@ JOINT_STATICS = Group(
         "Least stiffness with the valves open, of all pressures that hold the joint at the angle.", _HELD,
     ),
     Figure(
-        "most_stiffness", "K_max", "N*m/rad", "Greatest stiffness at the angle",
-        "Greatest stiffness with the valves open, of all pressures that hold the joint at the angle.", _HELD,
+        "most_stiffness", "K_max", "N*m/rad", "Largest stiffness at the angle",
+        "Largest stiffness with the valves open, of all pressures that hold the joint at the angle.", _HELD,
     ),
 )  # fmt: skip

@@ -8,13 +8,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mckibben.identification.diagnose.atlas import TESTS, stand_ins
+from mckibben.identification.diagnose.atlas import rig_of, stand_ins
 from mckibben.identification.diagnose.judgement import left_repetition
 from mckibben.identification.diagnose.repetition import Repetition, _chance, repetition
 from mckibben.identification.diagnose.repetition_words import repetition_text
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.predictor import Predictor
-from mckibben.identification.predict.quasistatic import QuasistaticPredictor
 from mckibben.physics.effect import Effect
 from tests.identification.synthetic import CATALOGUE, MUSCLE
 
@@ -56,8 +55,8 @@ def left_by(effect: Effect) -> Iterator[tuple[str, np.ndarray, Predictor]]:
         base = base.adding(CATALOGUE[name])
     both = base.adding(effect)
     bare = replace(base, muscle=both.muscle, assumed=both.assumed)
-    for kind in effect.kinds & set(TESTS):
-        predictor = QuasistaticPredictor(TESTS[kind](bare, 6e5)).after(("rest",))
+    for kind in effect.kinds - {"transient"}:
+        predictor = rig_of(kind, bare, 6e5).after(("rest",))
         if not predictor.why_hidden(effect):
             left = predictor.predict(both, clipped=False) - predictor.predict(bare, clipped=False)
             yield kind, np.where(np.isfinite(left), left, 0.0), predictor

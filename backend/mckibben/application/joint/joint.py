@@ -81,7 +81,7 @@ class JointPressures:
     least_stiffness: float | None
     """Least stiffness that can be had at this angle [N*m/rad]; null where the angle cannot be held."""
     most_stiffness: float | None
-    """Greatest stiffness that can be had at this angle [N*m/rad]; null where the angle cannot be held."""
+    """Largest stiffness that can be had at this angle [N*m/rad]; null where the angle cannot be held."""
 
 
 @result_class

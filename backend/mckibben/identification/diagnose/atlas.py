@@ -4,7 +4,8 @@ r"""What an effect leaves in the residual of each kind of test, if the model lac
 
 for the same prescribed motion, with the effect at its usual size. The tests are those of an ordinary rig,
 sized by the muscle: loops of contraction at three pressures, pressure ramps at three lengths and under three
-loads, a map at rest approached from both sides, the diameter over the contraction, and cycles of a valve.
+loads, a map at rest approached from both sides, the diameter over the contraction, the torque of a pulley
+that is turned to and fro, and cycles of a valve.
 """
 
 from __future__ import annotations
@@ -18,10 +19,13 @@ from mckibben.facts.result import FiniteSeries, Number, result_class
 from mckibben.identification.diagnose.protocol import RigRun, experiment_of
 from mckibben.identification.predict.comparable_rows import GRAVITY, ComparableRows
 from mckibben.identification.predict.fit_model import FitModel
+from mckibben.identification.predict.joint import JointPredictor, JointRows
+from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.predict.quasistatic import QuasistaticPredictor
 from mckibben.physics import ideal
 from mckibben.physics.effect import Effect, Kind
 from mckibben.physics.errors import InputError
+from mckibben.physics.muscle_path import constant_lever
 from mckibben.simulation.command.signals import signal_from
 from mckibben.simulation.drive.parts import Drive, Load, Tube, Valve
 from mckibben.simulation.drive.transient import simulate
@@ -36,6 +40,7 @@ _RATE = 0.05  # 1/s, of the contraction in loops
 _RAMP, _SLOW_RAMP = 5.0, 60.0  # s, of the pressure up or down
 _LOADS = (0.05, 0.2, 0.4)  # of the blocked force
 _STATIC_POINTS = 25
+_TURN = 0.5  # rad; half of the angle that a pulley is turned by
 # A drive that any muscle can move: the load hangs, a proportional valve swings it.
 _MASS_SHARE, _CYCLES, _FREQUENCY, _POINTS = 0.05, 1.5, 0.8, 181
 _CONDUCTANCE = 1.5e-8  # m3/(s Pa), for a muscle of 300 mm and 20 mm
@@ -108,17 +113,30 @@ def pictures(
     bare = replace(base, muscle=both.muscle, assumed=both.assumed)
     wanted = effect.kinds if kinds is None else kinds
     found: list[SignaturePicture] = []
-    for kind, make in TESTS.items():
-        if kind in wanted and (picture := _quasistatic(kind, make(bare, pressure), bare, both)):
+    for kind in _AXES:
+        if kind in wanted and (picture := _quasistatic(kind, rig_of(kind, bare, pressure), bare, both)):
             found.append(picture)
     if "transient" in wanted:
         found.append(_driven(bare, both, pressure))
     return found
 
 
-def _quasistatic(kind: Kind, task: ComparableRows, bare: FitModel, both: FitModel) -> SignaturePicture | None:
+def rig_of(kind: Kind, model: FitModel, pressure: float) -> Predictor:
+    """An ordinary rig for a kind of test at given motions; nothing is measured yet.
+
+    Args:
+        kind: of the test; not transient.
+        model: the muscle.
+        pressure: largest gauge pressure [Pa].
+    """
+    if kind == "joint":
+        return _turned(model, pressure)
+    return QuasistaticPredictor(_TASKS[kind](model, pressure))
+
+
+def _quasistatic(kind: Kind, predictor: Predictor, bare: FitModel, both: FitModel) -> SignaturePicture | None:
     """The picture; None where the prediction of this kind of test does not contain the effect."""
-    predictor, effect = QuasistaticPredictor(task).after(("rest",)), both.effects[-1]
+    predictor, effect = predictor.after(("rest",)), both.effects[-1]
     if kind in effect.kinds and predictor.why_hidden(effect):
         return None
     if kind == "diameter" and "compliance" in effect.slots:
@@ -126,19 +144,22 @@ def _quasistatic(kind: Kind, task: ComparableRows, bare: FitModel, both: FitMode
     residual = predictor.predict(both, clipped=False) - predictor.predict(bare, clipped=False)
     residual = np.where(np.isfinite(residual), residual, 0.0)
     moved, held = _AXES[kind]
-    across = {
-        "pressure": task.state["pressure"],
-        "contraction": 1.0 - task.state["length"] / float(bare.muscle.nominal_length),
-    }[moved]
-    holds = task.state[held]
+    inputs = predictor.inputs
+    across = (
+        1.0 - inputs["length"] / float(bare.muscle.nominal_length)
+        if moved == "contraction"
+        else inputs[moved]
+    )
+    holds, groups = inputs[held], predictor.groups
     curves = tuple(
         SignatureCurve(float(holds[rows][0]), across[rows], residual[rows])
-        for label in np.unique(task.groups)
-        if len(rows := np.flatnonzero(task.groups == label))
+        for label in np.unique(groups)
+        if len(rows := np.flatnonzero(groups == label))
     )
-    units = {"pressure": "Pa", "contraction": "1", "length": "m", "load": "N"}
+    units = {"pressure": "Pa", "contraction": "1", "length": "m", "load": "N", "angle": "rad"}
+    (channel,) = predictor.channels
     return SignaturePicture(
-        kind, task.channel, task.unit, moved, units[moved], held, units[held], curves, _rms(residual)
+        kind, channel.name, channel.unit, moved, units[moved], held, units[held], curves, _rms(residual)
     )
 
 
@@ -153,6 +174,7 @@ _AXES: Mapping[Kind, tuple[str, str]] = {
     "isotonic": ("pressure", "load"),
     "static": ("contraction", "pressure"),
     "diameter": ("contraction", "pressure"),
+    "joint": ("angle", "pressure"),
 }
 
 
@@ -245,8 +267,26 @@ def _grid(
     )
 
 
-#: Kind of a test at given motions -> the rows of an ordinary rig; nothing is measured in them yet.
-TESTS: Mapping[Kind, Callable[[FitModel, float], ComparableRows]] = {
+def _turned(model: FitModel, pressure: float) -> JointPredictor:
+    """A muscle on a pulley that is turned to and fro, to 0.5 rad either way of its middle."""
+    task = _loops(model, pressure)
+    rest = float(model.muscle.nominal_length)
+    length = task.state["length"]
+    middle = 0.5 * (np.max(length) + np.min(length))
+    lever = float(np.ptp(length)) / (2.0 * _TURN)
+    angle = (middle - length) / lever
+    rows = JointRows(
+        angle=angle,
+        torque=np.zeros(len(angle)),
+        lever=np.full(len(angle), lever),
+        direction=-task.state["direction"],
+        paths=(constant_lever(lever=lever, length=float(middle)),),
+        angled=True,
+    )
+    return JointPredictor(replace(task, state={**task.state, "angle": angle}, rest_length=rest), rows)
+
+
+_TASKS: Mapping[Kind, Callable[[FitModel, float], ComparableRows]] = {
     "isobaric": _loops,
     "isometric": _ramps,
     "isotonic": _loaded,

@@ -8,12 +8,11 @@ from dataclasses import replace
 import numpy as np
 
 from mckibben.facts.result import result_class
-from mckibben.identification.diagnose.atlas import TESTS, drive_of
+from mckibben.identification.diagnose.atlas import drive_of, rig_of
 from mckibben.identification.diagnose.diagnosis import diagnose
 from mckibben.identification.predict import predictor_of
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.predictor import Predictor
-from mckibben.identification.predict.quasistatic import QuasistaticPredictor
 from mckibben.measurement.reading import read_measurement
 from mckibben.physics.effect import Effect, Kind
 from mckibben.physics.errors import InputError
@@ -73,7 +72,7 @@ def trial(
     if kind == "transient":
         predictor = _transient(start, both, pressure, random)
     else:
-        predictor = _read(QuasistaticPredictor(TESTS[kind](start, pressure)), both, random)
+        predictor = _read(rig_of(kind, start, pressure), both, random)
     result = diagnose(predictor, start, catalogue=catalogue)
     named = list(result.added)
     twins = sorted({twin.effect for twin in result.alternatives if twin.of in named} - set(named))
@@ -97,7 +96,7 @@ def hidden_values(effect: Effect, share: float) -> dict[str, float]:
     return found
 
 
-def _read(rig: QuasistaticPredictor, both: FitModel, random: np.random.Generator) -> Predictor:
+def _read(rig: Predictor, both: FitModel, random: np.random.Generator) -> Predictor:
     clean = rig.after(("rest",)).predict(both)
     return rig.reading(clean + random.normal(0.0, NOISE * float(np.max(np.abs(clean))), clean.shape))
 
