@@ -168,16 +168,23 @@ function viewNow() {
 /** Counts the drawings; legends follow them. */
 const drawn = signal(0);
 
-let drawings = 0;
+let drawings = 0, untold = false;
+/** Tell of a drawing once its last strip has its axes: a strip that was just put into the page has them later. */
+function tell() {
+  if (!untold || !shownStrips.peek().at(-1)?.chart.axes) return;
+  untold = false;
+  drawn.value = ++drawings;
+  document.documentElement.dataset.ran = String(drawings);
+}
+
 function drawAll() {
   const v = viewNow();
   palette.value;
   if (!v || view.value !== "transient") return;
   const shown = shownStrips.value, last = shown.at(-1);
   for (const one of shown) one.chart.show((p) => one.spec({ ...v, bare: one !== last }, p));
-  if (!last?.chart.axes) return;
-  drawn.value = ++drawings;
-  document.documentElement.dataset.ran = String(drawings);
+  untold = true;
+  tell();
 }
 
 /** @param {Strip} one */
@@ -419,6 +426,7 @@ export function plotCards() {
   strips.forEach(({ chart }) => {
     drawBands(chart);
     writeLabels(chart);
+    chart.after.add(tell);
   });
   followTime(strips.map(({ chart }) => chart));
   phasePoint();
