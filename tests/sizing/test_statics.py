@@ -10,12 +10,12 @@ import pytest
 from mckibben.documents.studio import Studio
 from mckibben.physics import gas
 from mckibben.physics.sliding import sliding_effects
+from mckibben.physics.units import GRAVITY
 from mckibben.simulation.statics import inverse
 from mckibben.simulation.statics.model import StaticModel
 from mckibben.sizing import MusclePart, Task
 from mckibben.sizing.design_table import sheet_of
 from mckibben.sizing.statics import AMPLE, at_rest, least_time, margins, outputs
-from mckibben.sizing.task import GRAVITY
 from mckibben.sizing.trial import Trial
 from tests.sizing.conftest import LIFT, understood
 

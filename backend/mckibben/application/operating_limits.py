@@ -10,10 +10,10 @@ from math import sin
 from mckibben.application.muscle_summary import Notice
 from mckibben.documents.drive_reading import AnnotatedDrive, ValveRating
 from mckibben.documents.start_model import StartModel
+from mckibben.physics.units import GRAVITY
 from mckibben.simulation.command.pwm import PulseWidth
 from mckibben.simulation.drive.parts import Load
 
-GRAVITY = 9.80665  # m/s2
 OVER_MASS, OUTSIDE_TEMPERATURE, OUTSIDE_VALVE, OVER_FREQUENCY = (
     "over_suspended_mass",
     "outside_temperature",

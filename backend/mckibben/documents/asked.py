@@ -12,9 +12,8 @@ from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass, replace
 
 from mckibben.facts.result import result_class
-from mckibben.measurement.experiment import GRAVITY
 from mckibben.physics.errors import InputError
-from mckibben.physics.units import si
+from mckibben.physics.units import GRAVITY, si
 from mckibben.presets.order_code import order_code
 
 _NUMBER = r"[+-]?(?:\d+(?:[.,]\d+)?|\.\d+)(?:[eE][+-]?\d{1,3})?"

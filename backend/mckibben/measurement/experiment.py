@@ -36,11 +36,11 @@ from mckibben.measurement.kind import STROKES
 from mckibben.measurement.measurement import CHANNEL_UNITS, MeasuredChannel, Measurement, StatedValue
 from mckibben.physics.errors import InputError
 from mckibben.physics.muscle_path import MusclePath, path_on_lever
+from mckibben.physics.units import GRAVITY
 
 #: Who says a value: the file, the user, a preset that was chosen, a proposal that the user took over, nobody.
 Origin = Literal["file", "you", "preset", "suggested", "assumed"]
 
-GRAVITY = 9.80665  # m/s2
 _ZEROS = {"force_zero": "force", "pressure_zero": "pressure"}
 
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from mckibben.measurement.derivative import noise_of, smoothed
 from mckibben.physics.errors import InputError
+from mckibben.physics.units import GRAVITY
 
 Array = NDArray[np.float64]
 
@@ -25,8 +26,8 @@ _HELD_SHARE = 0.7  # of the rows, in which a hanging weight pulls with its weigh
 _SECOND = 1.0  # s
 _SLOW = 0.2  # of the range of the stroke in a second; a ramp through it takes longer than five
 _SWING = 0.25  # s; a weight on a muscle swings in a few tenths of a second
-_LITTLE = 0.01 * 9.80665  # m/s2, 1 % of gravity; less does not show
-_SWINGS = 0.025 * 9.80665  # m/s2; a swing of a few tenths of a second that shows has more
+_LITTLE = 0.01 * GRAVITY  # m/s2, 1 % of gravity; less does not show
+_SWINGS = 0.025 * GRAVITY  # m/s2; a swing of a few tenths of a second that shows has more
 _DENSE = 0.05  # s between rows
 _RARELY = 0.05  # share of the way
 _PAUSE = 5.0  # usual steps of time; longer ones are pauses

@@ -37,6 +37,7 @@ _REFERENCED = re.compile(
 )
 Reference = Literal["gauge", "absolute"]
 STANDARD_ATMOSPHERE = 101_325.0  # Pa
+GRAVITY = 9.80665  # m/s2, standard
 _SUPERSCRIPT = str.maketrans("⁺⁻¹²³⁴⁵⁶⁷⁸⁹", "+-123456789")
 
 # Spellings that pint lacks or reads differently: "pct" as a picocarat, "Nm" as a textile count.

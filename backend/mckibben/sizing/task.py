@@ -11,8 +11,8 @@ from mckibben.facts.sizing import FILL_TIMES, SHORTEST_FILL, UNTIMED_FILL
 from mckibben.facts.sizing import STATIONS as COMPARED
 from mckibben.facts.task import usual
 from mckibben.physics.errors import InputError
+from mckibben.physics.units import GRAVITY
 
-GRAVITY = 9.80665  # m/s2
 #: Shares of the stroke at which load and muscle are compared.
 STATIONS = np.linspace(0.0, 1.0, COMPARED)
 #: Pulley radii tried when the task does not fix one [m].

@@ -5,12 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mckibben.identification.diagnose.entries import ATMOSPHERE, Statements, read_otherwise, statements
+from mckibben.identification.diagnose.entries import Statements, read_otherwise, statements
 from mckibben.identification.predict import predictor_of
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.reading import read_measurement
 from mckibben.physics.errors import InputError
+from mckibben.physics.units import STANDARD_ATMOSPHERE
 from tests.identification.synthetic import MUSCLE, truth
 
 PRESSURES = (2e5, 4e5, 6e5)
@@ -26,7 +27,7 @@ def loops(*, absolute: bool = False, stroke: bool = True) -> Measurement:
             time += 0.1
             length = 0.3 * (1.0 - share)
             shown = 300.0 - 1e3 * length if stroke else 1e3 * length
-            bar = (pressure + (ATMOSPHERE if absolute else 0.0)) / 1e5
+            bar = (pressure + (STANDARD_ATMOSPHERE if absolute else 0.0)) / 1e5
             rows.append(f"{time:.1f},{bar:.6f},{shown:.6f},{float(truth(pressure, length)):.6f}")
     return read_measurement("\n".join(rows).encode(), "loops.csv")
 

@@ -9,9 +9,10 @@ import pytest
 
 from mckibben.physics import gas
 from mckibben.physics.muscle import Muscle
+from mckibben.physics.units import GRAVITY
 from mckibben.simulation.command.signals import signal_from
 from mckibben.simulation.drive.parts import Drive, Load, Tube, Valve
-from mckibben.simulation.drive.transient import GRAVITY, simulate
+from mckibben.simulation.drive.transient import simulate
 from mckibben.simulation.statics.model import StaticModel
 from tests.simulation.event_radau import strokes
 from tests.simulation.lsoda import simulated

@@ -43,8 +43,9 @@ from mckibben.physics.drive_terms import COUNTER
 from mckibben.physics.errors import InputError
 from mckibben.physics.gas import ANR_DENSITY
 from mckibben.physics.model import Model
+from mckibben.physics.units import GRAVITY
 from mckibben.simulation.drive.static_contraction import static_contraction
-from mckibben.simulation.drive.transient import GRAVITY, Run, held_interval
+from mckibben.simulation.drive.transient import Run, held_interval
 from mckibben.simulation.integrate.engine import MOST_EVENTS
 from mckibben.simulation.outcome import Outcome, OutcomeName, Watch
 from mckibben.simulation.statics.characteristics import FILLING, VENTING

@@ -17,7 +17,7 @@ import numpy as np
 
 from mckibben.facts.result import FiniteSeries, Number, result_class
 from mckibben.identification.diagnose.protocol import RigRun, experiment_of
-from mckibben.identification.predict.comparable_rows import GRAVITY, ComparableRows
+from mckibben.identification.predict.comparable_rows import ComparableRows
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.joint import JointPredictor, JointRows
 from mckibben.identification.predict.predictor import Predictor
@@ -26,6 +26,7 @@ from mckibben.physics import ideal
 from mckibben.physics.effect import Effect, Kind
 from mckibben.physics.errors import InputError
 from mckibben.physics.muscle_path import constant_lever
+from mckibben.physics.units import GRAVITY
 from mckibben.simulation.command.signals import signal_from
 from mckibben.simulation.drive.parts import Drive, Load, Tube, Valve
 from mckibben.simulation.drive.transient import simulate

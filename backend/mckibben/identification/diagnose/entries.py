@@ -19,10 +19,9 @@ from mckibben.measurement.rescaled import rescaled
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.muscle import HIGHEST_PRESSURE, NEUTRAL_ANGLE
+from mckibben.physics.units import GRAVITY, STANDARD_ATMOSPHERE
 
 #: Standard atmosphere [Pa]: what a gauge reading and an absolute reading differ by.
-ATMOSPHERE = 101325.0
-_G = 9.80665
 _PSI, _POUND, _INCH = 6894.757, 4.4482216, 25.4
 # Plausible sizes: pressure [Pa], force [N], stroke over the nominal length, duration [s].
 _PRESSURES, _FORCES, _STROKES, _DURATIONS = (2e4, HIGHEST_PRESSURE), (1.0, 2e4), (0.005, 0.5), (0.02, 1e5)
@@ -212,7 +211,7 @@ def _quantities(measurement: Measurement, fit_model: FitModel) -> Iterator[State
     yield _quantity("braid_angle", "braid_angle", "the braid angle", angle, flattest, steepest, "rad", _RARE)
     if measurement.kind == "isotonic" and "force" not in measurement.columns:
         force = float(measurement.conditions.get("load_force") or 0.0)
-        force += float(measurement.conditions.get("load_mass") or 0.0) * _G
+        force += float(measurement.conditions.get("load_mass") or 0.0) * GRAVITY
         if force > 0.0:
             more = Free(LOAD, 0.0, -0.8 * force, 4.0 * force, "N", off=0.0, usual=0.1 * force)
             yield StatedEntry("load", "load", "the load", force, "N", more, None, _USUAL)
@@ -254,8 +253,8 @@ def _readings(measurement: Measurement, fit_model: FitModel) -> Iterator[StatedE
     rest = fit_model.muscle.nominal_length
     if "pressure" in columns:
         for hypothesis, factor, offset, words, prior in (
-            ("absolute_pressure", 1.0, -ATMOSPHERE, "absolute", _USUAL),
-            ("gauge_pressure", 1.0, ATMOSPHERE, "gauge", _RARE),
+            ("absolute_pressure", 1.0, -STANDARD_ATMOSPHERE, "absolute", _USUAL),
+            ("gauge_pressure", 1.0, STANDARD_ATMOSPHERE, "gauge", _RARE),
             ("pressure_in_psi", _PSI / 1e5, 0.0, "in psi", _RARE),
             ("pressure_in_bar_not_psi", 1e5 / _PSI, 0.0, "in bar and not in psi", _RARE),
             ("pressure_in_MPa", 10.0, 0.0, "in MPa", _RARE),
@@ -272,8 +271,8 @@ def _readings(measurement: Measurement, fit_model: FitModel) -> Iterator[StatedE
     if "force" in columns:
         largest = float(np.max(columns["force"])), float(-np.min(columns["force"]))
         for hypothesis, factor, words in (
-            ("force_in_kgf", _G, "in kgf"),
-            ("force_in_N_not_kgf", 1.0 / _G, "in N and not in kgf"),
+            ("force_in_kgf", GRAVITY, "in kgf"),
+            ("force_in_N_not_kgf", 1.0 / GRAVITY, "in N and not in kgf"),
             ("force_in_lbf", _POUND, "in lbf"),
             ("force_in_N_not_lbf", 1.0 / _POUND, "in N and not in lbf"),
             ("force_in_kN", 1e3, "in kN"),

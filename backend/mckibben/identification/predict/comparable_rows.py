@@ -21,8 +21,8 @@ from mckibben.measurement.settled import settled
 from mckibben.physics.errors import InputError
 from mckibben.physics.model import ROOM_TEMPERATURE
 from mckibben.physics.muscle import Muscle
+from mckibben.physics.units import GRAVITY
 
-GRAVITY = 9.80665  # m/s2
 _LONGEST_SHARE = 0.9999  # longest length over the thread length, at which the braid locks
 _NEW_LEVEL = 0.05  # change of the constant quantity from row to row, share of its range
 _FORGOTTEN = 0.15  # travel after which friction no longer depends on the history, share of the swept range

@@ -11,11 +11,11 @@ import numpy as np
 from mckibben.identification.predict.fit_model import START_SPEED, START_STROKE, FitModel
 from mckibben.identification.predict.input_noise import without_input_noise
 from mckibben.measurement.derivative import noise_of
-from mckibben.measurement.experiment import GRAVITY
 from mckibben.measurement.kind import weights_of_runs
 from mckibben.measurement.measurement import STROKES, Measurement, lengths
 from mckibben.measurement.reading.conditions import COMMAND_BEFORE
 from mckibben.physics.errors import InputError
+from mckibben.physics.units import GRAVITY
 from mckibben.simulation.command.signals import TableSignal
 from mckibben.simulation.drive.joint_path import refuse_path
 from mckibben.simulation.drive.many_runs import Pieces

@@ -8,9 +8,11 @@ import re
 from mckibben.measurement.accuracy import read_accuracy
 from mckibben.measurement.reading.units import unit_of
 from mckibben.physics.errors import InputError
-from mckibben.physics.units import si
+from mckibben.physics.units import STANDARD_ATMOSPHERE, si
 
-ATMOSPHERE = 101_325.0  # Pa, subtracted from an absolute pressure where the file states no ambient one
+ATMOSPHERE = (
+    STANDARD_ATMOSPHERE  # Pa, subtracted from an absolute pressure where the file states no ambient one
+)
 
 #: Command before the first row: the valve may have stood elsewhere than at rest.
 COMMAND_BEFORE = "command_before"

@@ -23,8 +23,8 @@ from mckibben.measurement.reading.model import BLOCK, FILE, Array, Evidence, Spa
 from mckibben.measurement.reading.physics import ATMOSPHERE
 from mckibben.measurement.reading.units import Quantity, Unit, dimension_of, quantity_si
 from mckibben.measurement.reading.zeros import stated_hangers
+from mckibben.physics.units import GRAVITY
 
-GRAVITY = 9.80665  # m/s2, standard
 _SAME = 2e-3  # relative; values that differ by less are the same one, rounded
 _STATED = 4.0  # nats from which a value counts as stated; two of them that differ are asked about
 _POSSIBLE_AIR = (5e4, 1.1e5)  # Pa; of the air where people work

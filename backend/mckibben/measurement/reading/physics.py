@@ -13,9 +13,9 @@ import numpy as np
 
 from mckibben.measurement.measurement import CHANNEL_UNITS
 from mckibben.measurement.reading.model import Array
-from mckibben.physics.units import convert
+from mckibben.physics.units import STANDARD_ATMOSPHERE, convert
 
-ATMOSPHERE = 101_325.0  # Pa
+ATMOSPHERE = STANDARD_ATMOSPHERE  # Pa
 LONGEST = 0.42  # contraction that hardly a muscle exceeds
 _IMPOSSIBLE = 0.5  # and none, also where it is pushed together
 ROWS = 300  # rows that are looked at

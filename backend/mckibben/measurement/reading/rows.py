@@ -18,13 +18,14 @@ from mckibben.measurement.reading.answers import ignore_option
 from mckibben.measurement.reading.correction import SAMPLE, SLACK, Correction
 from mckibben.measurement.reading.decide import SLOTS, Decision, roles_of, value_of
 from mckibben.measurement.reading.evidence import NAME
-from mckibben.measurement.reading.facts import GRAVITY, Held, Known
+from mckibben.measurement.reading.facts import Held, Known
 from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.model import Array, Column, Evidence, Skip, Table, Use
 from mckibben.measurement.reading.named import length_of_name
 from mckibben.measurement.reading.numbers import BROKEN
 from mckibben.measurement.reading.units import Quantity, quantity_si
 from mckibben.physics.errors import InputError
+from mckibben.physics.units import GRAVITY
 
 LARGEST = 1e15  # in SI; more is of no physical size
 _ENOUGH_ROWS = 20

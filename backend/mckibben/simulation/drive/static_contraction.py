@@ -13,8 +13,8 @@ from math import sin
 
 import numpy as np
 
+from mckibben.physics.units import GRAVITY
 from mckibben.simulation.drive.parts import Drive
-from mckibben.simulation.drive.transient import GRAVITY
 from mckibben.simulation.statics.model import clip_slack
 
 Array = np.ndarray

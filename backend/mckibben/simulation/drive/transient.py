@@ -13,6 +13,7 @@ from mckibben.physics import gas, ideal
 from mckibben.physics.drive_terms import INPUTS
 from mckibben.physics.model import Model
 from mckibben.physics.muscle import GEOMETRY
+from mckibben.physics.units import GRAVITY
 from mckibben.simulation.command.segments import Segments, delayed, merged
 from mckibben.simulation.command.signals import Signal
 from mckibben.simulation.drive.events import Event, events_of
@@ -21,7 +22,6 @@ from mckibben.simulation.drive.parts import Drive, FlowControl, QuickExhaust, Re
 from mckibben.simulation.integrate.engine import CompiledDrive, Outcome, Solution, compiled_drive, integrate
 from mckibben.simulation.statics.model import StaticModel
 
-GRAVITY = 9.80665  # m/s2
 # A slack muscle takes its free length within about this time [s].
 _SLACK_TIME = 2e-6
 _LIGHTEST = 1e-3  # kg; least moving mass: without mass there is no equation of motion

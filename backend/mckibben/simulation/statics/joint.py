@@ -26,11 +26,11 @@ from numpy.typing import NDArray
 from mckibben.physics import ideal
 from mckibben.physics.model import ROOM_TEMPERATURE
 from mckibben.physics.muscle_path import MusclePath
+from mckibben.physics.units import GRAVITY
 from mckibben.simulation.statics.model import StaticModel
 
 Array = NDArray[np.float64]
 
-GRAVITY = 9.80665  # m/s2
 _GRID = 361  # angles between the stops from which equilibria are refined
 _LEVELS = 81  # pressures of a pair from which a stiffness is refined
 _TOLERANCE = 1e-13

@@ -69,6 +69,9 @@ export function jointCard() {
   const r = run.value;
   if (!r?.joint) return null;
   const { joint } = r;
+  const of = joint.counter_pressure
+    ? " The plotted air flow is that of the first muscle; the air in the table of both."
+    : "";
   return h(
     "section",
     { class: "card", "aria-label": "Joint" },
@@ -91,10 +94,10 @@ export function jointCard() {
       "p",
       { class: "hint" },
       joint.stiffness_error == null
-        ? "Stiffness at constant pressures. The plotted air flow is that of the first muscle; the air in the table of both."
+        ? `Stiffness at constant pressures.${of}`
         : `Stiffness at constant pressures; it misses its set point by ${
           withUnit(joint.stiffness_error, "rotary", units.value)
-        } rms. The plotted air flow is that of the first muscle; the air in the table of both.`,
+        } rms.${of}`,
     ),
   );
 }
