@@ -10,9 +10,8 @@ from mckibben.measurement.reading.units import unit_of
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import STANDARD_ATMOSPHERE, si
 
-ATMOSPHERE = (
-    STANDARD_ATMOSPHERE  # Pa, subtracted from an absolute pressure where the file states no ambient one
-)
+#: Subtracted from an absolute pressure where the file states no ambient one [Pa].
+ATMOSPHERE = STANDARD_ATMOSPHERE
 
 #: Command before the first row: the valve may have stood elsewhere than at rest.
 COMMAND_BEFORE = "command_before"
