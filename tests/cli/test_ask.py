@@ -34,3 +34,10 @@ def test_what_is_not_read_and_what_is_missing_are_named(run: Run) -> None:
     assert (code, out) == (2, "")
     assert "'bananas' is not read" in err or "'20 bananas' is not read" in err
     assert 'the question states no load ("20 kg")' in err
+
+
+def test_a_load_below_zero_is_none(run: Run) -> None:
+    """A muscle does not push."""
+    code, out, err = run("ask", "DMSP-20 300 mm 6 bar -20 kg")
+    assert (code, out) == (2, "")
+    assert "'-20 kg' is not read: below zero" in err

@@ -176,6 +176,8 @@ def _quantity_reader(match: re.Match[str], text: str) -> _Reader:
             raise InputError("a number without a unit")
         if abs(number) > _LARGEST:
             raise InputError("too large a number")
+        if number < 0.0 and unit != "%":  # a contraction below zero is a stretch
+            raise InputError("below zero")
 
         def value(of: str) -> float | None:
             try:
